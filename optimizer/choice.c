@@ -1,5 +1,5 @@
 /* The best of several proposals. */
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 /* -1, 0 or 1: less, equal but for round-off, more. */
 static int order(double a, double b, double tie)

@@ -39,12 +39,12 @@ static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, c
                                 .agrees = fabs(difference) <= tolerance};
 }
 
-bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_watch *watch, sp_forward_check *check,
-                      sp_error *error)
+bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_deadline *deadline,
+                      sp_forward_check *check, sp_error *error)
 {
     *check = (sp_forward_check){0};
-    if (!sp_watch_has_time(watch, "forward check", 0) || sp_watch_left(watch) < SECONDS) {
-        sp_watch_cut(watch, "forward check");
+    if (!sp_deadline_has_time(deadline, "forward check", 0) || sp_deadline_left(deadline) < SECONDS) {
+        sp_deadline_cut(deadline, "forward check");
         return true;
     }
     sp_error failure = {0};

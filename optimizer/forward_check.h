@@ -2,12 +2,12 @@
 #ifndef FORWARD_CHECK_H
 #define FORWARD_CHECK_H
 
-#include "watch/watch.h"
+#include "deadline/deadline.h"
 
 #include <sprayplan/place.h>
 
 /* Not computed where it is cancelled or too little time is left. */
-bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_watch *watch, sp_forward_check *check,
-                      sp_error *error);
+bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_deadline *deadline,
+                      sp_forward_check *check, sp_error *error);
 
 #endif

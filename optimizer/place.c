@@ -24,13 +24,13 @@
 /* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
-#define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */
+#define FIRST_HURRIED 0.93 /* of the target, for a first layout of which little more than the poses is wanted */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
     const sp_evaluator *fine;
     const sp_place_options *options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_evaluator *resampled; /* NULL: the fine one is coarse enough */
@@ -49,7 +49,7 @@ static void placement_free(sp_placement *placement)
     sp_evaluator_destroy(placement->resampled);
     sp_candidates_free(&placement->candidates);
     sp_sites_free(&placement->sites);
-    free(placement->watch.stages);
+    free(placement->deadline.stages);
 }
 
 static bool are_whole(const sp_nozzle_type *const *types, size_t count, sp_error *error)
@@ -97,16 +97,16 @@ static bool look_around(sp_placement *placement, sp_error *error)
     if (!sp_sites_create(fine, placement->options, &placement->sites, error) ||
         !sp_candidates_create(fine, placement->options, &placement->sites, &placement->candidates, error))
         return false;
-    if (!sp_visibility_fit(fine, placement->options, &placement->sites, &placement->candidates, &placement->watch,
+    if (!sp_visibility_fit(fine, placement->options, &placement->sites, &placement->candidates, &placement->deadline,
                            &placement->resampled, &placement->visibility, error))
         return false;
     const sp_evaluator *coarse = placement->resampled ? placement->resampled : fine;
     return sp_search_create(coarse, placement->options, &placement->sites, &placement->candidates,
                             &placement->visibility, &placement->search, error) &&
-           sp_watch_stage(&placement->watch, "visibility", error) &&
+           sp_deadline_stage(&placement->deadline, "visibility", error) &&
            (!placement->search.footprints ||
-            (sp_footprints_fill(placement->search.footprints, &placement->watch, error) &&
-             sp_watch_stage(&placement->watch, "footprints", error)));
+            (sp_footprints_fill(placement->search.footprints, &placement->deadline, error) &&
+             sp_deadline_stage(&placement->deadline, "footprints", error)));
 }
 
 static double area_of(const sp_evaluator *fine, const bool *chosen)
@@ -133,7 +133,7 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
     proposal->reasons = calloc(patches ? patches : 1, sizeof *proposal->reasons);
     if (!proposal->attainable || !proposal->reasons)
         return sp_fail_memory(error);
-    if (!sp_attainable(placement->fine, &placement->search, &placement->watch, proposal->reasons, error))
+    if (!sp_attainable(placement->fine, &placement->search, &placement->deadline, proposal->reasons, error))
         return false;
     for (size_t p = 0; p < patches; p++)
         proposal->attainable[p] = proposal->reasons[p] == SP_REASON_ATTAINABLE;
@@ -141,22 +141,22 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
     placement->front.fine = placement->fine;
     placement->front.objective = placement->options->objective;
     placement->front.target = proposal->target_area;
-    return sp_watch_stage(&placement->watch, "attainable", error);
+    return sp_deadline_stage(&placement->deadline, "attainable", error);
 }
 
-/* The best draft so far as a layout with its coverage. */
+/* The best partial layout so far as a layout with its coverage. */
 static bool write_down(const sp_placement *placement, sp_layout **layout, sp_coverage **coverage, sp_error *error)
 {
-    *layout = sp_draft_layout(&placement->search, &placement->front.best, error);
+    *layout = sp_partial_to_layout(&placement->search, &placement->front.best, error);
     *coverage = *layout ? sp_evaluate(placement->fine, *layout, error) : NULL;
     return *coverage != NULL;
 }
 
-/* What the mounts of the best draft's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
+/* What the mounts of the best layout's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
 static double *list_costs(const sp_placement *placement, sp_error *error)
 {
     const sp_search *search = &placement->search;
-    const sp_draft *best = &placement->front.best;
+    const sp_partial *best = &placement->front.best;
     double *costs = calloc(search->kept_count + best->count + 1, sizeof *costs);
     for (size_t i = 0; costs && i < best->count; i++)
         costs[search->kept_count + i] = search->options->mounts[best->items[i].site.mount].cost;
@@ -178,23 +178,23 @@ static bool is_sound(const sp_placement *placement, sp_error *error)
 }
 
 /* At leisure all is found on the candidates before anything is refined. In a hurry the proposal comes first: the first
- * draft stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
+ * layout stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
  */
 static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     sp_search *search = &placement->search;
-    sp_watch *watch = &placement->watch;
+    sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
     bool hurried = sp_run_hurries(&placement->options->run) && sp_refine_asked(&placement->options->refine);
-    sp_draft first;
-    if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, watch, front, &placement->pool, &first, error))
+    sp_partial first;
+    if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
     bool done = !hurried || (write_greedy(placement, proposal, error) && is_sound(placement, error) &&
-                             sp_refine_first(search, &placement->pool, watch, front, error) &&
-                             sp_watch_stage(watch, "refine", error));
-    done = done && sp_find_more(search, watch, front, &placement->pool, &first, error) &&
+                             sp_refine_first(search, &placement->pool, deadline, front, error) &&
+                             sp_deadline_stage(deadline, "refine", error));
+    done = done && sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
            (hurried || write_greedy(placement, proposal, error));
-    sp_draft_free(&first);
+    sp_partial_free(&first);
     return done;
 }
 
@@ -206,7 +206,7 @@ static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_err
         !(proposal->costs = list_costs(placement, error)))
         return false;
     proposal->costly = search->costly;
-    proposal->outlay = proposal->coverage->flow + sp_draft_costs(search, &placement->front.best);
+    proposal->outlay = proposal->coverage->flow + sp_partial_costs(search, &placement->front.best);
     proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
     for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {
         uint32_t mount = placement->front.best.items[i].site.mount;
@@ -221,14 +221,14 @@ static bool measure(const sp_placement *placement, sp_proposal *proposal, sp_err
                             sp_evaluator_fidelity(placement->fine)->seed, &proposal->coverage->measured, error);
 }
 
-/* Every draft of the fronts, counted on the fine evaluator of now. */
+/* Every layout of the fronts, counted on the fine evaluator of now. */
 static bool count_front_again(sp_placement *placement, const sp_front *before, sp_error *error)
 {
     const sp_front_list *lists[] = {&before->by_water, &before->by_number};
     bool done = sp_front_measure(&placement->front, &placement->search, &before->best, NULL, error);
     for (int k = 0; k < 2; k++)
         for (size_t i = 0; done && i < lists[k]->count; i++)
-            done = sp_front_measure(&placement->front, &placement->search, &lists[k]->entries[i].draft, NULL, error);
+            done = sp_front_measure(&placement->front, &placement->search, &lists[k]->entries[i].partial, NULL, error);
     return done;
 }
 
@@ -261,35 +261,36 @@ static bool count_again(sp_placement *placement, sp_proposal *proposal, sp_evalu
 }
 
 /* Where a machine is so busy that an error takes too long to measure. Who interrupts a placement waits for it. */
-static bool is_too_late(sp_watch *watch)
+static bool is_too_late(sp_deadline *deadline)
 {
-    return sp_watch_left(watch) + MEASURING_LATE * watch->run.time_limit < MEASURING / sp_watch_pace(watch) &&
-           !watch->cancelled;
+    return sp_deadline_left(deadline) + MEASURING_LATE * deadline->run.time_limit <
+               MEASURING / sp_deadline_pace(deadline) &&
+           !deadline->cancelled;
 }
 
 /* No coverage is proposed that points of the surface do not confirm: where auto's choice does not keep the accuracy, or
  * was made by lines for another layout, all is counted again by a dearer one, as long as there are any. */
 static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    sp_watch_allow(&placement->watch, 1);
+    sp_deadline_allow(&placement->deadline, 1);
     double accuracy = sp_evaluator_fidelity(placement->fine)->accuracy;
-    if (is_too_late(&placement->watch)) {
-        sp_watch_cut(&placement->watch, "measured error");
-        return sp_watch_stage(&placement->watch, "measured error", error);
+    if (is_too_late(&placement->deadline)) {
+        sp_deadline_cut(&placement->deadline, "measured error");
+        return sp_deadline_stage(&placement->deadline, "measured error", error);
     }
     while (measure(placement, proposal, error)) {
         const sp_measured_error *measured = &proposal->coverage->measured;
         bool off = measured->known && measured->estimate > accuracy;
         sp_evaluator *again = NULL;
-        if (!sp_watch_has_time(&placement->watch, "measured error", 0)) {
+        if (!sp_deadline_has_time(&placement->deadline, "measured error", 0)) {
             if (off)
-                sp_watch_cut(&placement->watch, "measured error");
-            return sp_watch_stage(&placement->watch, "measured error", error);
+                sp_deadline_cut(&placement->deadline, "measured error");
+            return sp_deadline_stage(&placement->deadline, "measured error", error);
         }
         if (!sp_evaluator_again(placement->fine, off, &again, error))
             return false;
         if (!again)
-            return sp_watch_stage(&placement->watch, "measured error", error);
+            return sp_deadline_stage(&placement->deadline, "measured error", error);
         if (!count_again(placement, proposal, again, error))
             return false;
     }
@@ -302,19 +303,19 @@ static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *e
     const sp_layout *own = placement->options->kept;
     if (!placement->options->mend_kept || !own || !own->count)
         return true;
-    if (!sp_watch_has_time(&placement->watch, "remedies", 0)) {
-        sp_watch_cut(&placement->watch, "remedies");
+    if (!sp_deadline_has_time(&placement->deadline, "remedies", 0)) {
+        sp_deadline_cut(&placement->deadline, "remedies");
         return true;
     }
     sp_search keeping;
     if (!sp_search_keep_all(&placement->search, &keeping, error))
         return false;
-    sp_draft draft = {0};
+    sp_partial partial = {0};
     sp_coverage *coverage = sp_evaluate(placement->fine, own, error);
-    bool done = coverage && sp_draft_create(&keeping, &draft, error) &&
-                sp_remedies_find(&keeping, placement->fine, &draft, coverage, &placement->watch, proposal->own_remedies,
-                                 &proposal->own_remedy_count, error);
-    sp_draft_free(&draft);
+    bool done = coverage && sp_partial_create(&keeping, &partial, error) &&
+                sp_remedies_find(&keeping, placement->fine, &partial, coverage, &placement->deadline,
+                                 proposal->own_remedies, &proposal->own_remedy_count, error);
+    sp_partial_free(&partial);
     sp_coverage_destroy(coverage);
     sp_search_keep_all_free(&keeping);
     return done;
@@ -324,22 +325,22 @@ static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *e
 static bool find_remedies(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     return sp_remedies_find(&placement->search, placement->fine, &placement->front.best, proposal->coverage,
-                            &placement->watch, proposal->remedies, &proposal->remedy_count, error) &&
-           mend_own(placement, proposal, error) && sp_watch_stage(&placement->watch, "remedies", error);
+                            &placement->deadline, proposal->remedies, &proposal->remedy_count, error) &&
+           mend_own(placement, proposal, error) && sp_deadline_stage(&placement->deadline, "remedies", error);
 }
 
 /* Nothing is proved by the one evaluation of which the other was not asked first. */
 static bool check_forward(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    return sp_check_forward(placement->search.coarse, proposal->layout, &placement->watch, &proposal->forward_check,
+    return sp_check_forward(placement->search.coarse, proposal->layout, &placement->deadline, &proposal->forward_check,
                             error) &&
-           sp_watch_stage(&placement->watch, "forward check", error);
+           sp_deadline_stage(&placement->deadline, "forward check", error);
 }
 
 /* How near to the best all that is, in the time that is left. */
 static bool certify(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    return sp_certify(&placement->search, &placement->watch, &placement->front, &proposal->certificate, error);
+    return sp_certify(&placement->search, &placement->deadline, &placement->front, &proposal->certificate, error);
 }
 
 /* What a reported layout covers is attainable: patches of which it covers half or more, and never less in all than it
@@ -363,16 +364,16 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
                         proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->objective = options->objective;
-    proposal->interrupted = placement->watch.interrupted;
+    proposal->interrupted = placement->deadline.interrupted;
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
     proposal->front = sp_front_by_water(&placement->front, &proposal->front_count, error);
     proposal->by_number = sp_front_by_number(&placement->front, &proposal->by_number_count, error);
-    proposal->stage_count = placement->watch.stage_count;
-    proposal->stages = placement->watch.stages;
-    proposal->cut_count = placement->watch.cut_count;
-    memcpy(proposal->cut, placement->watch.cut, sizeof proposal->cut);
-    placement->watch.stages = NULL;
+    proposal->stage_count = placement->deadline.stage_count;
+    proposal->stages = placement->deadline.stages;
+    proposal->cut_count = placement->deadline.cut_count;
+    memcpy(proposal->cut, placement->deadline.cut, sizeof proposal->cut);
+    placement->deadline.stages = NULL;
     return proposal->front && proposal->by_number;
 }
 
@@ -409,17 +410,17 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *giv
     sp_proposal *proposal = calloc(1, sizeof *proposal);
     if (!proposal)
         return sp_fail_memory(error);
-    sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
-    sp_watch_allow(&placement.watch, search_share(options));
+    sp_placement placement = {.fine = evaluator, .options = options, .deadline = sp_deadline_start(&options->run)};
+    sp_deadline_allow(&placement.deadline, search_share(options));
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 find(&placement, proposal, error) && is_sound(&placement, error) &&
-                sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
-                sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
+                sp_refine_best(&placement.search, &placement.pool, &placement.deadline, &placement.front, error) &&
+                sp_set_front(&placement.search, &placement.deadline, &placement.front, error) &&
                 is_sound(&placement, error) && propose(&placement, proposal, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
+                sp_deadline_stage(&placement.deadline, "refine", error) && confirm(&placement, proposal, error) &&
                 find_remedies(&placement, proposal, error) && check_forward(&placement, proposal, error) &&
                 certify(&placement, proposal, error) && is_sound(&placement, error) &&
-                sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
+                sp_deadline_stage(&placement.deadline, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

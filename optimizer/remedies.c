@@ -1,7 +1,7 @@
 #include "remedies.h"
 
 #include "attainable/coarse_patch.h"
-#include "scoring/draft_told.h"
+#include "scoring/partial_told.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -70,7 +70,7 @@ static bool remedying_create(remedying *r, const sp_shadow *shadows, size_t coun
 
 /* Leaves the shadow alone worth something. What the search's patches, which may be coarser, see as covered of it is dry
  * to begin with. */
-static void mask(remedying *r, uint32_t shadow, sp_draft *draft)
+static void mask(remedying *r, uint32_t shadow, sp_partial *partial)
 {
     const sp_patches *patches = sp_evaluator_patches(r->fine);
     const sp_deposits *deposits = &r->coverage->deposits;
@@ -80,44 +80,44 @@ static void mask(remedying *r, uint32_t shadow, sp_draft *draft)
         if (r->number[p] != shadow || coarse == SP_NONE)
             continue;
         r->masked.area[coarse] += (float)((1 - deposits->share[p]) * patches->area[p] / r->search->all);
-        if (draft->wet[coarse] < SP_ENOUGH)
+        if (partial->wet[coarse] < SP_ENOUGH)
             continue;
-        draft->hit[coarse] = draft->wet[coarse] = 0;
-        if (draft->film)
-            draft->film[coarse] = 0;
-        draft->dry[coarse] = 1;
+        partial->hit[coarse] = partial->wet[coarse] = 0;
+        if (partial->film)
+            partial->film[coarse] = 0;
+        partial->dry[coarse] = 1;
     }
 }
 
 /* The first of the equally good. */
-static void scan_make(const remedying *r, sp_sweeper *sweeper, uint32_t make, site_best *best)
+static void scan_variant(const remedying *r, sp_sweeper *sweeper, uint32_t variant, site_best *best)
 {
     const sp_candidates *candidates = r->search->candidates;
     uint32_t mount = r->search->sites->items[sweeper->site].mount;
-    size_t axes = sp_candidates_axes(candidates, mount, make)->count;
+    size_t axes = sp_candidates_axes(candidates, mount, variant)->count;
     double tie = SP_SCORE_TIE * r->search->all;
-    sp_sweeper_take(sweeper, make);
+    sp_sweeper_take(sweeper, variant);
     double most = sp_sweeper_most(sweeper); /* mounting points see little of one shadow, and soon all of that is wet */
     for (uint32_t a = 0; a < axes && most > best->gain + tie; a++)
-        for (uint32_t roll = 0; roll < candidates->makes[make].roll_count; roll++) {
+        for (uint32_t roll = 0; roll < candidates->variants[variant].roll_count; roll++) {
             double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
             if (gain > best->gain + tie)
-                *best = (site_best){{sweeper->site, make, a, roll}, gain};
+                *best = (site_best){{sweeper->site, variant, a, roll}, gain};
         }
 }
 
-static void scan_site(remedying *r, const sp_draft *draft, uint32_t site)
+static void scan_site(remedying *r, const sp_partial *partial, uint32_t site)
 {
     const sp_candidates *candidates = r->search->candidates;
     sp_sweeper *sweeper = &r->sweepers[omp_get_thread_num()];
     r->best[site] = (site_best){.gain = 0};
-    if (!sp_draft_has_place(&r->masked, draft, r->search->sites->items[site].mount))
+    if (!sp_partial_has_place(&r->masked, partial, r->search->sites->items[site].mount))
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
-        sp_sweeper_look(sweeper, &r->masked, draft, site, s);
-        for (uint32_t k = 0; k < candidates->make_count; k++)
-            if (candidates->makes[k].launch == s && sp_search_knows(&r->masked, site, k))
-                scan_make(r, sweeper, k, &r->best[site]);
+        sp_sweeper_look(sweeper, &r->masked, partial, site, s);
+        for (uint32_t k = 0; k < candidates->variant_count; k++)
+            if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k))
+                scan_variant(r, sweeper, k, &r->best[site]);
     }
 }
 
@@ -127,7 +127,7 @@ static sp_ranks *ranks_of(const remedying *r)
 }
 
 /* Of all sites, of which each rank scans its own. */
-static bool scan(remedying *r, const sp_draft *draft, sp_error *error)
+static bool scan(remedying *r, const sp_partial *partial, sp_error *error)
 {
     size_t sites = r->search->sites->count;
     sp_told told = {0};
@@ -136,7 +136,7 @@ static bool scan(remedying *r, const sp_draft *draft, sp_error *error)
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(r), i))
-            scan_site(r, draft, (uint32_t)i);
+            scan_site(r, partial, (uint32_t)i);
     sp_sweepers_forget(r->sweepers, r->threads);
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(r), i))
@@ -172,14 +172,14 @@ static double newly_covered(const remedying *r, uint32_t shadow, const sp_covera
 }
 
 /* The layout with that nozzle, by the scene's own count: *remedy becomes it where it covers more. */
-static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uint32_t shadow, sp_remedy *remedy,
+static bool measure(const remedying *r, const sp_partial *partial, sp_pose pose, uint32_t shadow, sp_remedy *remedy,
                     sp_error *error)
 {
-    sp_draft more;
-    if (!sp_draft_copy(r->search, draft, &more, error))
+    sp_partial more;
+    if (!sp_partial_copy(r->search, partial, &more, error))
         return false;
     sp_layout *layout =
-        sp_draft_add_pose(r->search, &more, pose, error) ? sp_draft_layout(r->search, &more, error) : NULL;
+        sp_partial_add_pose(r->search, &more, pose, error) ? sp_partial_to_layout(r->search, &more, error) : NULL;
     sp_coverage *coverage = layout ? sp_evaluate(r->fine, layout, error) : NULL;
     const sp_mount *mount = &r->search->options->mounts[r->search->sites->items[pose.site].mount];
     bool done = coverage != NULL;
@@ -194,33 +194,33 @@ static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uin
     }
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    sp_draft_free(&more);
+    sp_partial_free(&more);
     return done;
 }
 
-static bool look_for(remedying *r, const sp_draft *draft, uint32_t shadow, promise *found, sp_error *error)
+static bool look_for(remedying *r, const sp_partial *partial, uint32_t shadow, promise *found, sp_error *error)
 {
-    sp_draft dry;
+    sp_partial dry;
     size_t trials = sp_evaluator_fidelity(r->fine)->method == SP_METHOD_INVERSE ? TRIALS : 1;
     *found = (promise){.count = 0};
-    if (!sp_draft_copy(r->search, draft, &dry, error))
+    if (!sp_partial_copy(r->search, partial, &dry, error))
         return false;
     mask(r, shadow, &dry);
     bool done = scan(r, &dry, error);
-    sp_draft_free(&dry);
+    sp_partial_free(&dry);
     for (site_best *best; done && found->count < trials && (best = take_best(r)); best->gain = 0)
         found->sites[found->count++] = *best;
     return done;
 }
 
-static bool try_out(const remedying *r, const sp_draft *draft, uint32_t shadow, const promise *found, sp_remedy *remedy,
-                    sp_error *error)
+static bool try_out(const remedying *r, const sp_partial *partial, uint32_t shadow, const promise *found,
+                    sp_remedy *remedy, sp_error *error)
 {
     *remedy = (sp_remedy){.area = 0};
     for (size_t i = 0; i < found->count; i++) {
         if (remedy->nozzle.type && remedy->area >= found->sites[i].gain)
             break; /* what it promises is rarely too little */
-        if (!measure(r, draft, found->sites[i].pose, shadow, remedy, error))
+        if (!measure(r, partial, found->sites[i].pose, shadow, remedy, error))
             return false;
     }
     return true;
@@ -248,7 +248,7 @@ static bool share(const remedying *r, sp_remedy *remedies, size_t first, size_t 
 }
 
 /* Those of a few shadows, first to end: all ranks look for what promises most, then each tries that for its own. */
-static bool find_some(remedying *r, const sp_draft *draft, size_t first, size_t end, sp_remedy *remedies,
+static bool find_some(remedying *r, const sp_partial *partial, size_t first, size_t end, sp_remedy *remedies,
                       sp_error *error)
 {
     promise found[SP_REMEDIES];
@@ -256,15 +256,16 @@ static bool find_some(remedying *r, const sp_draft *draft, size_t first, size_t 
     for (size_t i = first; i < end; i++)
         remedies[i] = (sp_remedy){.area = 0};
     for (size_t i = first; done && i < end; i++)
-        done = look_for(r, draft, (uint32_t)i + 1, &found[i], error);
+        done = look_for(r, partial, (uint32_t)i + 1, &found[i], error);
     for (size_t i = first; done && i < end; i++)
         if (sp_ranks_mine(ranks_of(r), i))
-            done = try_out(r, draft, (uint32_t)i + 1, &found[i], &remedies[i], error);
+            done = try_out(r, partial, (uint32_t)i + 1, &found[i], &remedies[i], error);
     return done && share(r, remedies, first, end, error);
 }
 
-bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
-                      const sp_coverage *coverage, sp_watch *watch, sp_remedy *remedies, size_t *count, sp_error *error)
+bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_partial *partial,
+                      const sp_coverage *coverage, sp_deadline *deadline, sp_remedy *remedies, size_t *count,
+                      sp_error *error)
 {
     remedying r = {.search = search, .fine = fine, .coverage = coverage};
     sp_shadow *shadows = NULL;
@@ -274,14 +275,14 @@ bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const s
         return false;
     found = found < SP_REMEDIES ? found : SP_REMEDIES;
     bool done = remedying_create(&r, shadows, found, error);
-    while (done && *count < found && sp_watch_has_time(watch, "remedies", (double)*count / (double)found)) {
+    while (done && *count < found && sp_deadline_has_time(deadline, "remedies", (double)*count / (double)found)) {
         size_t end = *count + sp_ranks_count(ranks_of(&r));
         end = end < found ? end : found;
-        done = find_some(&r, draft, *count, end, remedies, error);
+        done = find_some(&r, partial, *count, end, remedies, error);
         *count = done && !sp_ranks_lost(ranks_of(&r)) ? end : *count;
     }
     if (*count < found)
-        sp_watch_cut(watch, "remedies");
+        sp_deadline_cut(deadline, "remedies");
     remedying_free(&r);
     free(shadows);
     return done;

@@ -1,11 +1,11 @@
 /* Is there more to gain with few nozzles than refinement finds? At one amount of water every pose, or every so many-th,
  * at the flows that refinement may set, is given the best partner that the water left allows; the best of these pairs
- * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after that,
- * and which place in the order it had. One thread. */
+ * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after
+ * that, and which place in the order it had. One thread. */
 #include "placement.h"
 #include "refine/anneal.h"
 #include "refine/compass.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 #include "search/tuned.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@
 typedef struct {
     uint32_t row[2];
     size_t count;
-    double covered; /* m² of the table's sample */
+    double covered; /* m² of the coverage matrix's sample */
 } pair;
 
 static int by_covered(const void *a, const void *b)
@@ -37,10 +37,10 @@ static void widen_pool(placement *p)
     const sp_candidates *candidates = &p->candidates;
     size_t stride = candidates->pose_start[p->sites.count] / ROWS + 1, number = 0;
     for (uint32_t s = 0; s < p->sites.count; s++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             size_t axes = sp_candidates_axes(candidates, p->sites.items[s].mount, k)->count;
             for (uint32_t a = 0; a < axes; a++)
-                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
+                for (uint32_t r = 0; r < candidates->variants[k].roll_count; r++)
                     if (number++ % stride == 0 && sp_search_knows(&p->search, s, k) &&
                         !sp_pool_add(&p->pool, (sp_pose){s, k, a, r}, &error))
                         fail(&error);
@@ -49,15 +49,15 @@ static void widen_pool(placement *p)
 }
 
 /* Every row that the budget allows with its best partner, the best first; malloc'd. */
-static pair *list_pairs(const sp_table *table, double budget, size_t *count)
+static pair *list_pairs(const sp_coverage_matrix *matrix, double budget, size_t *count)
 {
     sp_error error = {0};
     sp_lineup lineup;
-    pair *pairs = malloc((table->row_count + 1) * sizeof *pairs);
-    if (!pairs || !sp_lineup_create(table, &lineup, &error))
+    pair *pairs = malloc((matrix->row_count + 1) * sizeof *pairs);
+    if (!pairs || !sp_lineup_create(matrix, &lineup, &error))
         fail(&error);
     *count = 0;
-    for (uint32_t r = 0; r < table->row_count; r++) {
+    for (uint32_t r = 0; r < matrix->row_count; r++) {
         double gain;
         sp_lineup_set(&lineup, NULL, 0);
         if (!(sp_lineup_gain(&lineup, r, budget) > 0))
@@ -81,26 +81,26 @@ static bool is_known(const pair *pairs, size_t i)
 }
 
 /* What a pair covers on the search's patches, m², before and after it was refined. */
-static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, const pair *start, double budget,
-                   double covered[2])
+static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix *matrix, const pair *start,
+                   double budget, double covered[2])
 {
     sp_error error = {0};
     sp_sights sights;
     sp_lineup lineup;
-    sp_draft draft;
-    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
+    sp_partial partial;
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(matrix, &lineup, &error))
         fail(&error);
     sp_lineup_set(&lineup, start->row, start->count);
-    if (!sp_lineup_draft(&lineup, &draft, &error))
+    if (!sp_lineup_partial(&lineup, &partial, &error))
         fail(&error);
-    sp_tuned_settle(tuned, &draft);
-    covered[0] = draft.covered;
-    double water = sp_draft_water(&p->search, &draft, budget);
-    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->watch, &draft, &error) ||
-        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error))
+    sp_tuned_settle(tuned, &partial);
+    covered[0] = partial.covered;
+    double water = sp_partial_water(&p->search, &partial, budget);
+    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &partial, &error) ||
+        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &partial, &error))
         fail(&error);
-    covered[1] = draft.covered;
-    sp_draft_free(&draft);
+    covered[1] = partial.covered;
+    sp_partial_free(&partial);
     sp_lineup_free(&lineup);
     sp_sights_free(&sights);
 }
@@ -116,30 +116,30 @@ int main(int argc, char **argv)
     sp_error error = {0};
     placement p;
     sp_tuned tuned;
-    sp_table table = {0};
+    sp_coverage_matrix matrix = {0};
     placement_open(argv[1], &p);
     widen_pool(&p);
     double budget = litres / 6e4 * (1 + SP_ROUNDING), best[2] = {0, 0};
     if (!sp_tuned_create(&p.search, &p.pool, &tuned, &error) ||
-        !sp_table_create(&tuned.search, &tuned.pool, NULL, 0, &table, &error))
+        !sp_coverage_matrix_create(&tuned.search, &tuned.pool, NULL, 0, &matrix, &error))
         fail(&error);
-    pair *pairs = list_pairs(&table, budget, &count);
+    pair *pairs = list_pairs(&matrix, budget, &count);
     size_t tried = 0, rank = 0;
     for (size_t i = 0; i < count && tried < most; i++) {
         double covered[2];
         if (is_known(pairs, i))
             continue;
-        refine(&p, &tuned, &table, &pairs[i], budget, covered);
+        refine(&p, &tuned, &matrix, &pairs[i], budget, covered);
         best[0] = fmax(best[0], covered[0]);
         rank = covered[1] > best[1] ? tried : rank;
         best[1] = fmax(best[1], covered[1]);
         tried++;
     }
     printf("%zu rows, %zu pairs refined at %g L/min: %.2f %% of the attainable before, %.2f %% after, from pair %zu\n",
-           table.row_count, tried, litres, 100 * best[0] / p.search.view_area, 100 * best[1] / p.search.view_area,
+           matrix.row_count, tried, litres, 100 * best[0] / p.search.view_area, 100 * best[1] / p.search.view_area,
            rank + 1);
     free(pairs);
-    sp_table_free(&table);
+    sp_coverage_matrix_free(&matrix);
     sp_tuned_free(&tuned);
     placement_close(&p);
     return 0;

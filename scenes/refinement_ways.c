@@ -1,7 +1,7 @@
 /* What is each way of refinement worth by itself? Looks for the best that candidates give at every amount of water and
- * refines eight of these drafts on the search's own patches: annealing by Ceres from the widest start and from a
- * narrow one, compass search, and both. Says for each which share of what the draft leaves dry is covered then, and the
- * processor time that it took. One thread. */
+ * refines eight of these layouts on the search's own patches: annealing by Ceres from the widest start and from a
+ * narrow one, compass search, and both. Says for each which share of what the layout leaves dry is covered then, and
+ * the processor time that it took. One thread. */
 #include "placement.h"
 #include "refine/anneal.h"
 #include "refine/compass.h"
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <time.h>
 
-#define DRAFTS 8
+#define PARTIALS 8
 #define NARROW 3 /* the width at which an annealing starts that keeps what is there */
 #define SIGHTS 24
 #define STEP_FIRST 0.25 /* of the compass, as refinement has it */
@@ -29,20 +29,21 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* What the draft covers after it was refined, m²; *seconds: how long that took. */
-static double refine(placement *p, const sp_draft *from, const way *how, double *seconds)
+/* What the layout covers after it was refined, m²; *seconds: how long that took. */
+static double refine(placement *p, const sp_partial *from, const way *how, double *seconds)
 {
     sp_error error = {0};
     sp_sights sights;
-    sp_draft draft;
-    double water = sp_draft_water(&p->search, from, from->outlay), start = processor_seconds();
-    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_draft_copy(&p->search, from, &draft, &error) ||
-        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->watch, &draft, &error)) ||
-        (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error)))
+    sp_partial partial;
+    double water = sp_partial_water(&p->search, from, from->outlay), start = processor_seconds();
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) ||
+        !sp_partial_copy(&p->search, from, &partial, &error) ||
+        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->deadline, &partial, &error)) ||
+        (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &partial, &error)))
         fail(&error);
     *seconds = processor_seconds() - start;
-    double covered = draft.covered;
-    sp_draft_free(&draft);
+    double covered = partial.covered;
+    sp_partial_free(&partial);
     sp_sights_free(&sights);
     return covered;
 }
@@ -60,14 +61,14 @@ int main(int argc, char **argv)
                   {.name = "compass", .start = SP_WIDTHS, .compass = true},
                   {.name = "Ceres, compass", .start = 0, .compass = true},
                   {.name = "Ceres, narrow, compass", .start = NARROW, .compass = true}};
-    const size_t way_count = sizeof ways / sizeof *ways, drafts = p.front.by_water.count;
+    const size_t way_count = sizeof ways / sizeof *ways, partials = p.front.by_water.count;
     size_t tried = 0;
     printf("| water, L/min | nozzles |");
     for (size_t w = 0; w < way_count; w++)
         printf(" %s, %% |", ways[w].name);
     printf("\n|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i<drafts; i += drafts> DRAFTS ? drafts / DRAFTS : 1) {
-        const sp_draft *from = &p.front.by_water.entries[i].draft;
+    for (size_t i = 0; i<partials; i += partials> PARTIALS ? partials / PARTIALS : 1) {
+        const sp_partial *from = &p.front.by_water.entries[i].partial;
         double dry = p.search.view_area - from->covered;
         if (!from->count || dry <= 0)
             continue;

@@ -12,7 +12,7 @@
 typedef struct {
     const sp_evaluator *fine;
     const sp_search *search;
-    const sp_scope *scopes; /* [makes] */
+    const sp_scope *scopes; /* [variants] */
     const double *kept;     /* [patches], counted flux of the kept nozzles */
     size_t nozzles_left;
     double water_left; /* m³/s */
@@ -20,16 +20,16 @@ typedef struct {
 
 /* Flux per flow and transfer (1/sr) in a direction that lies `away` (rad) from the mount's axis, at best over the axes
  * within the tilt and the angles allowed; 0: not at all. */
-static double best_intensity(const sp_make *make, const sp_scope *scope, double away, double tilt)
+static double best_intensity(const sp_variant *variant, const sp_scope *scope, double away, double tilt)
 {
     /* polar angles about the nozzle's axis that the direction can be brought to */
     double least = fmax(0, away - tilt), most = fmin(M_PI, away + tilt);
-    const sp_nozzle_type *type = make->type;
+    const sp_nozzle_type *type = variant->type;
     if (!sp_type_is_uniform(type)) /* somewhere in it: what it brings there its footprints tell */
-        return least <= make->reach;
+        return least <= variant->reach;
     double angle = fmax(scope->angle_low, 2 * least);
     if (angle > scope->angle_high * (1 + 1e-12)) {
-        if (least > make->reach)
+        if (least > variant->reach)
             return 0;
         angle = type->angle;
     }
@@ -47,14 +47,14 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t lau
     double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
     size_t place = sp_mount_room(mount) == 1 ? site->mount : search->options->mount_count;
     bool better = false;
-    for (size_t k = 0; k < search->candidates->make_count; k++) {
-        const sp_make *make = &search->candidates->makes[k];
+    for (size_t k = 0; k < search->candidates->variant_count; k++) {
+        const sp_variant *variant = &search->candidates->variants[k];
         const sp_scope *scope = &reckoning->scopes[k];
-        if (make->launch != launch || !sp_type_is_uniform(make->type) ||
+        if (variant->launch != launch || !sp_type_is_uniform(variant->type) ||
             !sp_candidates_axes(search->candidates, site->mount, k)->count || scope->flow_low > reckoning->water_left)
             continue;
         /* a jet narrower than the patch is spread over it */
-        double ratio = fmin(best_intensity(make, scope, away, mount->tilt) * transfer, 1 / area);
+        double ratio = fmin(best_intensity(variant, scope, away, mount->tilt) * transfer, 1 / area);
         if (ratio <= 0)
             continue;
         sp_offer new = {ratio, scope->flow_low, fmin(scope->flow_high, reckoning->water_left)};
@@ -99,15 +99,15 @@ static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, s
     return SP_REASON_FLUX;
 }
 
-/* Whether any make of this launch can be aimed so. */
+/* Whether any variant of this launch can be aimed so. */
 static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t launch, sp_vec3 direction)
 {
     const sp_search *search = reckoning->search;
     double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
-    for (size_t k = 0; k < search->candidates->make_count; k++)
-        if (search->candidates->makes[k].launch == launch &&
+    for (size_t k = 0; k < search->candidates->variant_count; k++)
+        if (search->candidates->variants[k].launch == launch &&
             sp_candidates_axes(search->candidates, site->mount, k)->count &&
-            best_intensity(&search->candidates->makes[k], &reckoning->scopes[k], away,
+            best_intensity(&search->candidates->variants[k], &reckoning->scopes[k], away,
                            search->options->mounts[site->mount].tilt) > 0)
             return true;
     return false;
@@ -161,7 +161,7 @@ static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_pl
     return reason;
 }
 
-static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *reasons, sp_error *error)
+static bool reckon(const sp_reckoning *reckoning, sp_deadline *deadline, sp_reason *reasons, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(reckoning->fine)->count;
     size_t places = reckoning->search->options->mount_count + 1;
@@ -172,7 +172,7 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *re
     size_t batch = (size_t)threads * 16 * CHUNK;
     for (size_t first = 0; first < patches; first += batch) {
         /* a time limit does not stop this: without the target the search would not know when to end */
-        if (!sp_watch_goes_on(watch, "attainable", (double)first / (double)patches) && watch->cancelled)
+        if (!sp_deadline_goes_on(deadline, "attainable", (double)first / (double)patches) && deadline->cancelled)
             break;
         size_t end = first + batch < patches ? first + batch : patches;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
@@ -191,16 +191,17 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *re
 
 static sp_scope *scopes_create(const sp_search *search, const sp_setup *setup)
 {
-    sp_scope *scopes = malloc(search->candidates->make_count * sizeof *scopes);
-    for (size_t k = 0; scopes && k < search->candidates->make_count; k++) {
-        const sp_make *make = &search->candidates->makes[k];
-        sp_angle_range(search->options, make->type, &scopes[k].angle_low, &scopes[k].angle_high);
-        sp_flow_range(search->options, setup, make->type, make->pressure, &scopes[k].flow_low, &scopes[k].flow_high);
+    sp_scope *scopes = malloc(search->candidates->variant_count * sizeof *scopes);
+    for (size_t k = 0; scopes && k < search->candidates->variant_count; k++) {
+        const sp_variant *variant = &search->candidates->variants[k];
+        sp_angle_range(search->options, variant->type, &scopes[k].angle_low, &scopes[k].angle_high);
+        sp_flow_range(search->options, setup, variant->type, variant->pressure, &scopes[k].flow_low,
+                      &scopes[k].flow_high);
     }
     return scopes;
 }
 
-bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, sp_reason *reasons,
+bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error)
 {
     const sp_place_options *options = search->options;
@@ -223,10 +224,10 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         for (size_t p = 0; p < kept->deposits.count; p++)
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
-        done = (moves || reckon(&reckoning, watch, reasons, error)) &&
-               (watch->cancelled || (sp_runs(fine, search, scopes, watch, reasons, error) &&
-                                     (moves ? sp_passing_reasons(fine, search, watch, reasons, error)
-                                            : sp_bounces(fine, search, reasons, error))));
+        done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
+               (deadline->cancelled || (sp_runs(fine, search, scopes, deadline, reasons, error) &&
+                                        (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
+                                               : sp_bounces(fine, search, reasons, error))));
     }
     free(scopes);
     sp_coverage_destroy(kept);

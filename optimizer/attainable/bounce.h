@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_BOUNCE_H
 #define OPTIMIZER_BOUNCE_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 /* Turns SP_REASON_NO_LINE into SP_REASON_REFLECTION where a jet of some candidate that a wall has thrown back passes,
  * judged on the coarse patches by jets spread over all that the candidates can aim at. `reasons` are of the patches of

@@ -33,7 +33,7 @@ static bool look(const sp_search *search, const sp_site *site, size_t launch, sp
     return true;
 }
 
-static bool look_from_all(const sp_search *search, sp_watch *watch, sp_reason *nearest, sp_error *error)
+static bool look_from_all(const sp_search *search, sp_deadline *deadline, sp_reason *nearest, sp_error *error)
 {
     size_t launches = search->candidates->launch_count;
     sp_error failure = {0};
@@ -41,7 +41,7 @@ static bool look_from_all(const sp_search *search, sp_watch *watch, sp_reason *n
     for (size_t i = 0; i < search->sites->count * launches; i++) {
         sp_error own = {0};
         /* a time limit does not stop this, as it does not stop the rest of what is attainable */
-        bool stopped = !sp_watch_goes_on(watch, "attainable", 1) && watch->cancelled;
+        bool stopped = !sp_deadline_goes_on(deadline, "attainable", 1) && deadline->cancelled;
         if (!stopped && !look(search, &search->sites->items[i / launches], i % launches, nearest, &own))
 #pragma omp critical(sp_passing)
             failure = own;
@@ -49,7 +49,7 @@ static bool look_from_all(const sp_search *search, sp_watch *watch, sp_reason *n
     return failure.kind == SP_OK || sp_fail(error, failure.kind, NULL, 0, 0, "%s", failure.message);
 }
 
-bool sp_passing_reasons(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, sp_reason *reasons,
+bool sp_passing_reasons(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                         sp_error *error)
 {
     size_t patches = sp_evaluator_patches(fine)->count, left = 0;
@@ -60,8 +60,8 @@ bool sp_passing_reasons(const sp_evaluator *fine, const sp_search *search, sp_wa
     sp_reason *nearest = malloc((search->patch_count + 1) * sizeof *nearest);
     for (size_t p = 0; nearest && p < search->patch_count; p++)
         nearest[p] = SP_REASON_NO_LINE;
-    bool done = nearest ? look_from_all(search, watch, nearest, error) : sp_fail_memory(error) != NULL;
-    for (size_t p = 0; done && !watch->cancelled && p < patches; p++) {
+    bool done = nearest ? look_from_all(search, deadline, nearest, error) : sp_fail_memory(error) != NULL;
+    for (size_t p = 0; done && !deadline->cancelled && p < patches; p++) {
         uint32_t patch = reasons[p] == SP_REASON_ATTAINABLE ? SP_NONE : sp_coarse_patch(fine, search->coarse, p);
         if (patch != SP_NONE)
             reasons[p] = nearest[patch];

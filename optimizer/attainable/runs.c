@@ -15,7 +15,7 @@ typedef enum {
 typedef struct {
     question question;
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     const sp_scope *scopes;
     size_t count;    /* of patches that are asked about */
     uint32_t *asked; /* [count], coarse */
@@ -60,16 +60,16 @@ static double brought(const running *r, const float *field, uint32_t patch)
     return hit < 0 ? hit <= -0.5f ? INFINITY : 0 : (double)hit;
 }
 
-/* All that a make at a site offers. */
-static void look_at_make(const running *r, int thread, uint32_t site, uint32_t make)
+/* All that a variant at a site offers. */
+static void look_at_variant(const running *r, int thread, uint32_t site, uint32_t variant)
 {
     const sp_search *search = r->search;
-    const sp_make *own = &search->candidates->makes[make];
-    const sp_scope *scope = &r->scopes[make];
+    const sp_variant *own = &search->candidates->variants[variant];
+    const sp_scope *scope = &r->scopes[variant];
     sp_sweeper *sweeper = &r->sweepers[thread];
     uint32_t mount = search->sites->items[site].mount;
     size_t place = sp_mount_room(&search->options->mounts[mount]) == 1 ? mount : search->options->mount_count;
-    size_t axes = sp_candidates_axes(search->candidates, mount, make)->count;
+    size_t axes = sp_candidates_axes(search->candidates, mount, variant)->count;
     if (scope->flow_low > r->water_left || search->port_taken[mount])
         return;
     for (uint32_t a = 0; a < axes; a++)
@@ -85,21 +85,21 @@ static void look_at_make(const running *r, int thread, uint32_t site, uint32_t m
         }
 }
 
-static void look_at_sites(const running *r, const sp_draft *nothing)
+static void look_at_sites(const running *r, const sp_partial *nothing)
 {
     const sp_candidates *candidates = r->search->candidates;
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
     for (size_t site = 0; site < r->search->sites->count; site++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             int thread = omp_get_thread_num();
-            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].launch);
+            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->variants[k].launch);
             /* a time limit does not stop this, as it does not stop the rest of what is attainable */
-            bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled,
-                 uniform = sp_type_is_uniform(candidates->makes[k].type);
+            bool stopped = !sp_deadline_goes_on(r->deadline, "attainable", 1) && r->deadline->cancelled,
+                 uniform = sp_type_is_uniform(candidates->variants[k].type);
             if (stopped || (uniform && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
                 continue;
             sp_sweeper_take(&r->sweepers[thread], k);
-            look_at_make(r, thread, (uint32_t)site, k);
+            look_at_variant(r, thread, (uint32_t)site, k);
         }
     sp_sweepers_forget(r->sweepers, r->threads);
 }
@@ -137,13 +137,13 @@ static void note(const running *r, const sp_evaluator *fine, const bool *attaine
 static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_error *error)
 {
     const sp_search *search = r->search;
-    sp_draft nothing = {0};
+    sp_partial nothing = {0};
     bool *attained = calloc(search->patch_count + 1, sizeof *attained);
     bool done = (attained && list_asked(r, fine, reasons)) || sp_fail_memory(error);
     if (done && r->count) {
         r->offers = calloc((size_t)r->threads * r->count, 2 * r->places * sizeof *r->offers);
         r->sweepers = r->offers ? sp_sweepers_create(search, r->threads, error) : sp_fail_memory(error);
-        done = r->sweepers && sp_draft_create(search, &nothing, error);
+        done = r->sweepers && sp_partial_create(search, &nothing, error);
         if (done)
             look_at_sites(r, &nothing);
         for (size_t i = 0; done && i < r->count; i++)
@@ -151,7 +151,7 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
         if (done)
             note(r, fine, attained, reasons);
     }
-    sp_draft_free(&nothing);
+    sp_partial_free(&nothing);
     sp_sweepers_destroy(r->sweepers, r->threads);
     free(r->offers);
     free(r->asked);
@@ -159,11 +159,11 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
     return done;
 }
 
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_deadline *deadline,
              sp_reason *reasons, sp_error *error)
 {
     running r = {.search = search,
-                 .watch = watch,
+                 .deadline = deadline,
                  .scopes = scopes,
                  .places = search->options->mount_count + 1,
                  .threads = sp_sweeper_threads(search),

@@ -3,13 +3,13 @@
 #define OPTIMIZER_RUNS_H
 
 #include "attainable/offers.h"
-#include "scoring/draft.h"
-#include "watch/watch.h"
+#include "scoring/partial.h"
+#include "deadline/deadline.h"
 
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,
  * and of the kept nozzles, could together suffice, on the search's patches; and where what hits could of poses that no
- * sweep knows. `scopes` by make; `reasons` of the patches of `fine`. Ends early where the run is cancelled. */
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
+ * sweep knows. `scopes` by variant; `reasons` of the patches of `fine`. Ends early where the run is cancelled. */
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_deadline *deadline,
              sp_reason *reasons, sp_error *error);
 
 #endif

@@ -53,7 +53,7 @@ static void offer_rows(sp_bound *bound)
 {
     const sp_rows *rows = &bound->rows;
     for (size_t c = 0; c < rows->count; c++)
-        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, &bound->dual.price));
+        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, &bound->dual.multipliers));
 }
 
 /* What a candidate must be worth to raise the bound at this water. */
@@ -78,7 +78,7 @@ void sp_bound_settle(sp_bound *bound)
             bound->by_water[w] = fmin(bound->by_water[w], bound->by_water[w - 1]);
 }
 
-/* Prices all candidates on top of the few and lowers every bound that these prices lower; `proved` is the one at
+/* Prices all candidates on top of the few and lowers every bound that these multipliers lower; `proved` is the one at
  * `water`. */
 static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
@@ -87,7 +87,7 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
     bound->complete = false;
     if (!sp_cover_goes_on(cover))
         return true;
-    if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, true, &bound->offers,
+    if (!bound->pricer->price(bound->pricer->user, &bound->dual.multipliers, bound->needed, true, &bound->offers,
                               &bound->rows, error))
         return false;
     if (!sp_cover_goes_on(cover))
@@ -95,8 +95,8 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
     bound->complete = true;
     bound->proofs++;
     sp_knapsack_fill(&bound->knapsack, &bound->offers, cover->water);
-    double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
-    size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
+    double rest = (cover->base + sp_cover_rest(cover, &bound->dual.multipliers)) * (1 + 1e-12);
+    size_t nozzles = bound->dual.multipliers.inequalities ? bound->inequalities.nozzles : cover->nozzles;
     for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
         bound->by_water[w] = fmin(bound->by_water[w], rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, w));
     bound->proved = rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
@@ -128,14 +128,14 @@ static bool thin_out(sp_bound *bound, sp_error *error)
 bool sp_bound_lower_single(sp_bound *bound, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
-    sp_prices *price = &bound->dual.price;
-    sp_lifts_create(1, &bound->lifts);
-    price->lifts = cover->whole ? NULL : &bound->lifts;
+    sp_multipliers *multipliers = &bound->dual.multipliers;
+    sp_valid_inequalities_create(1, &bound->inequalities);
+    multipliers->inequalities = cover->whole ? NULL : &bound->inequalities;
     for (size_t t = 0; t < cover->texel_count; t++) {
         /* all that counts is whether one nozzle brings all */
-        price->plain[t] = cover->whole ? cover->area[t] : 0;
-        price->lifted[t] = cover->whole ? 0 : cover->area[t];
-        price->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+        multipliers->plain[t] = cover->whole ? cover->area[t] : 0;
+        multipliers->strengthened[t] = cover->whole ? 0 : cover->area[t];
+        multipliers->kind[t] = SP_INEQUALITY_ALL_OR_NOTHING;
     }
     for (size_t k = 0; k < cover->tier_count; k++)
         bound->needed[k] = INFINITY;
@@ -149,14 +149,14 @@ static bool solve(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t fit = water / bound->lightest;
-    sp_lifts_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
+    sp_valid_inequalities_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->inequalities);
     sp_dual_task task = {.nozzles = cover->nozzles,
                          .water = water,
                          .iterations = bound->iterations,
                          .tolerance = bound->tolerance,
-                         .lifts = bound->lifting ? &bound->lifts : NULL,
+                         .inequalities = bound->strengthening ? &bound->inequalities : NULL,
                          .coarse = bound->coarse};
-    if (bound->lifting && !sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
+    if (bound->strengthening && !sp_dual_strengthen(&bound->dual, &bound->rows, &bound->inequalities, error))
         return false;
     if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
         return false;
@@ -174,9 +174,9 @@ bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
     }
     if (!solve(bound, water, error) || !prove(bound, water, error))
         return false;
-    bound->closed = bound->complete && (bound->lifting || cover->whole) &&
+    bound->closed = bound->complete && (bound->strengthening || cover->whole) &&
                     bound->proved <= bound->dual.bound * (1 + bound->tolerance);
-    bound->lifting = !cover->whole;
+    bound->strengthening = !cover->whole;
     return true;
 }
 
@@ -184,10 +184,10 @@ bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error)
 {
     if (water < bound->lightest)
         return true;
-    if (!solve(bound, water, error) || !bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed,
-                                                             false, &bound->offers, &bound->rows, error))
+    if (!solve(bound, water, error) || !bound->pricer->price(bound->pricer->user, &bound->dual.multipliers,
+                                                             bound->needed, false, &bound->offers, &bound->rows, error))
         return false;
-    bound->lifting = !bound->cover->whole;
+    bound->strengthening = !bound->cover->whole;
     return true;
 }
 

@@ -112,54 +112,55 @@ void sp_rows_free(sp_rows *rows)
     *rows = (sp_rows){0};
 }
 
-bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error)
+bool sp_multipliers_create(const sp_cover *cover, sp_multipliers *multipliers, sp_error *error)
 {
     size_t texels = cover->texel_count + 1;
-    *prices = (sp_prices){.plain = malloc(texels * sizeof *prices->plain),
-                          .lifted = calloc(texels, sizeof *prices->lifted),
-                          .kind = calloc(texels, sizeof *prices->kind)};
-    if (!prices->plain || !prices->lifted || !prices->kind) {
-        sp_prices_free(prices);
+    *multipliers = (sp_multipliers){.plain = malloc(texels * sizeof *multipliers->plain),
+                                    .strengthened = calloc(texels, sizeof *multipliers->strengthened),
+                                    .kind = calloc(texels, sizeof *multipliers->kind)};
+    if (!multipliers->plain || !multipliers->strengthened || !multipliers->kind) {
+        sp_multipliers_free(multipliers);
         return sp_fail_memory(error);
     }
-    memcpy(prices->plain, cover->area, cover->texel_count * sizeof *prices->plain);
+    memcpy(multipliers->plain, cover->area, cover->texel_count * sizeof *multipliers->plain);
     return true;
 }
 
-void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to)
+void sp_multipliers_copy(const sp_cover *cover, const sp_multipliers *from, sp_multipliers *to)
 {
-    to->lifts = from->lifts;
+    to->inequalities = from->inequalities;
     memcpy(to->plain, from->plain, cover->texel_count * sizeof *to->plain);
-    memcpy(to->lifted, from->lifted, cover->texel_count * sizeof *to->lifted);
+    memcpy(to->strengthened, from->strengthened, cover->texel_count * sizeof *to->strengthened);
     memcpy(to->kind, from->kind, cover->texel_count * sizeof *to->kind);
 }
 
-void sp_prices_free(sp_prices *prices)
+void sp_multipliers_free(sp_multipliers *multipliers)
 {
-    free(prices->plain);
-    free(prices->lifted);
-    free(prices->kind);
-    *prices = (sp_prices){0};
+    free(multipliers->plain);
+    free(multipliers->strengthened);
+    free(multipliers->kind);
+    *multipliers = (sp_multipliers){0};
 }
 
-double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices)
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_multipliers *multipliers)
 {
     /* two sums side by side, so that neither waits for the other */
-    double plain = 0, lifted = 0;
+    double plain = 0, strengthened = 0;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
         uint32_t t = rows->texel[i];
-        plain += (double)sp_share_of(rows->share[i]) * (double)prices->plain[t];
-        if (prices->lifts && prices->lifted[t] > 0)
-            lifted +=
-                (double)sp_share_lifted(prices->lifts, prices->kind[t], rows->share[i]) * (double)prices->lifted[t];
+        plain += (double)sp_share_of(rows->share[i]) * (double)multipliers->plain[t];
+        if (multipliers->inequalities && multipliers->strengthened[t] > 0)
+            strengthened +=
+                (double)sp_share_strengthened(multipliers->inequalities, multipliers->kind[t], rows->share[i]) *
+                (double)multipliers->strengthened[t];
     }
-    return (plain + lifted) * UPWARDS;
+    return (plain + strengthened) * UPWARDS;
 }
 
-double sp_cover_rest(const sp_cover *cover, const sp_prices *prices)
+double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers)
 {
     double rest = 0;
     for (size_t t = 0; t < cover->texel_count; t++)
-        rest += fmax(0, (double)cover->area[t] - (double)prices->plain[t] - (double)prices->lifted[t]);
+        rest += fmax(0, (double)cover->area[t] - (double)multipliers->plain[t] - (double)multipliers->strengthened[t]);
     return rest * UPWARDS;
 }

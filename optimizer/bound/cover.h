@@ -9,7 +9,7 @@
 #define OPTIMIZER_COVER_H
 
 #include "bound/knapsack.h"
-#include "bound/lift.h"
+#include "bound/valid_inequality.h"
 
 #include <math.h>
 
@@ -26,7 +26,7 @@ typedef struct {
     size_t nozzles, water;  /* most that may be chosen; units */
     const bool *sums;       /* [water + 1], whether any candidates come to just so much; NULL: all may */
     bool repeats;           /* a candidate without a port may be chosen more than once */
-    bool whole;             /* every share is 1: nothing to lift */
+    bool whole;             /* every share is 1: nothing to strengthen */
     int threads;
     /* Asked now and then, from any thread; once false always false: then solves and pricings break off, and what they
      * were about proves nothing. NULL: go on. */
@@ -50,15 +50,15 @@ typedef struct {
     float *share; /* [used], above 0, at most 1; or below 0: of so much of the texel a whole share (see sp_share_of) */
 } sp_rows;
 
-/* What a row's entry counts for in sums of plain shares; and of lifted ones: a candidate covers the part of a texel
- * that lies at its spray's edge by itself or not at all. */
+/* What a row's entry counts for in sums of plain shares; and of strengthened ones: a candidate covers the part of a
+ * texel that lies at its spray's edge by itself or not at all. */
 static inline float sp_share_of(float share)
 {
     return fabsf(share);
 }
-static inline float sp_share_lifted(const sp_lifts *lifts, size_t kind, float share)
+static inline float sp_share_strengthened(const sp_valid_inequalities *inequalities, size_t kind, float share)
 {
-    return share < 0 ? -share : sp_lift(lifts, kind, share);
+    return share < 0 ? -share : sp_strengthen(inequalities, kind, share);
 }
 
 /* Appends a row of `count` texels; false when memory runs out. */
@@ -73,20 +73,20 @@ void sp_rows_free(sp_rows *rows);
 uint64_t *sp_rows_keys(const sp_rows *rows);
 bool sp_keys_hold(const uint64_t *keys, size_t count, uint64_t key);
 
-/* Prices of texels, m²: of their shares, and of what one of the lifts makes of these. */
+/* Lagrange multipliers of texels, m²: of their shares, and of what one of the inequalities makes of these. */
 typedef struct {
-    const sp_lifts *lifts; /* NULL: only shares count */
-    float *plain, *lifted; /* [texels], plain + lifted <= area */
-    uint8_t *kind;         /* [texels], which lift */
-} sp_prices;
+    const sp_valid_inequalities *inequalities; /* NULL: only shares count */
+    float *plain, *strengthened;               /* [texels], plain + strengthened <= area */
+    uint8_t *kind;                             /* [texels], which inequality */
+} sp_multipliers;
 
-bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error);
-void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to);
-void sp_prices_free(sp_prices *prices);
+bool sp_multipliers_create(const sp_cover *cover, sp_multipliers *multipliers, sp_error *error);
+void sp_multipliers_copy(const sp_cover *cover, const sp_multipliers *from, sp_multipliers *to);
+void sp_multipliers_free(sp_multipliers *multipliers);
 
 /* What a row is worth; rounded upwards. */
-double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices);
-/* The area, Σ (area - price), that prices leave: what no candidate has to bring. Rounded upwards. */
-double sp_cover_rest(const sp_cover *cover, const sp_prices *prices);
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_multipliers *multipliers);
+/* The area, Σ (area - multiplier), that multipliers leave: what no candidate has to bring. Rounded upwards. */
+double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers);
 
 #endif

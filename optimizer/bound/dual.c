@@ -6,12 +6,12 @@
 #include <string.h>
 
 #define CHOICE_LEAST 1e-4f /* of a row, that is worth a look */
-#define KIND_BETTER 1e-3f  /* by which another lift must cover less */
+#define KIND_BETTER 1e-3f  /* by which another inequality must cover less */
 
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 {
     *dual = (sp_dual){.cover = cover, .texels = cover->texel_count};
-    if (!sp_prices_create(cover, &dual->price, error) || !sp_prices_create(cover, &dual->u, error)) {
+    if (!sp_multipliers_create(cover, &dual->multipliers, error) || !sp_multipliers_create(cover, &dual->u, error)) {
         sp_dual_free(dual);
         return false;
     }
@@ -24,8 +24,8 @@ bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 
 void sp_dual_free(sp_dual *dual)
 {
-    sp_prices_free(&dual->price);
-    sp_prices_free(&dual->u);
+    sp_multipliers_free(&dual->multipliers);
+    sp_multipliers_free(&dual->u);
     free(dual->choice);
     free(dual->x);
     free(dual->dual_resource);
@@ -57,9 +57,9 @@ bool sp_dual_make_room(sp_dual *dual, size_t rows, sp_error *error)
     return true;
 }
 
-bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error)
+bool sp_dual_strengthen(sp_dual *dual, const sp_rows *rows, const sp_valid_inequalities *inequalities, sp_error *error)
 {
-    size_t kinds = lifts->kinds;
+    size_t kinds = inequalities->kinds;
     float *sums = calloc(dual->texels * kinds + 1, sizeof *sums);
     if (!sums)
         return sp_fail_memory(error);
@@ -67,7 +67,7 @@ bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_
         float amount = (float)sp_dual_choice(dual, c);
         for (size_t i = rows->start[c]; amount > CHOICE_LEAST && i < rows->start[c + 1]; i++)
             for (size_t k = 0; k < kinds; k++)
-                sums[rows->texel[i] * kinds + k] += amount * sp_share_lifted(lifts, k, rows->share[i]);
+                sums[rows->texel[i] * kinds + k] += amount * sp_share_strengthened(inequalities, k, rows->share[i]);
     }
     for (size_t t = 0; t < dual->texels; t++) {
         uint8_t best = dual->u.kind[t];

@@ -1,6 +1,6 @@
 #include "bound/iterate.h"
 
-#include "bound/hybrid.h"
+#include "bound/pdhg.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,17 +9,17 @@
 
 bool sp_dual_iterate(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
 {
-    sp_hybrid h;
-    if (!sp_hybrid_create(dual, rows, task, &h, error))
+    sp_pdhg h;
+    if (!sp_pdhg_create(dual, rows, task, &h, error))
         return false;
     dual->bound = INFINITY;
     dual->reached = -INFINITY;
     for (size_t i = 1; i <= task->iterations; i++) {
-        sp_hybrid_step(&h);
-        if (i % LOOK == 0 && (sp_hybrid_look(&h, i) || !sp_cover_goes_on(dual->cover)))
+        sp_pdhg_step(&h);
+        if (i % LOOK == 0 && (sp_pdhg_look(&h, i) || !sp_cover_goes_on(dual->cover)))
             break;
     }
     memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
-    sp_hybrid_free(&h);
+    sp_pdhg_free(&h);
     return true;
 }

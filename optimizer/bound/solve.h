@@ -1,4 +1,4 @@
-/* Looks for good prices: on groups of texels first where that is asked for, then on all. */
+/* Looks for good multipliers: on groups of texels first where that is asked for, then on all. */
 #ifndef OPTIMIZER_SOLVE_H
 #define OPTIMIZER_SOLVE_H
 

@@ -6,7 +6,8 @@
 #define STEPS_LEAST 96 /* of the water, by which what is left of it is told apart */
 #define STEPS_MOST 256 /* with more nozzles than that, none are few */
 
-sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp_tuple_task *task, sp_error *error)
+sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_candidate_list *list, const sp_tuple_task *task,
+                            sp_error *error)
 {
     sp_tuples *o = calloc(1, sizeof *o);
     if (!o) {
@@ -14,7 +15,7 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp
         return NULL;
     }
     *o = (sp_tuples){.cover = cover,
-                     .line = line,
+                     .list = list,
                      .water = task->water,
                      .most = task->most,
                      .floor = task->floor,
@@ -22,7 +23,7 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp
                      .target = task->floor,
                      .least = INFINITY};
     size_t water = task->water;
-    o->lightest = line->kind_count ? line->weight[line->kind_count - 1] : 0;
+    o->lightest = list->kind_count ? list->weight[list->kind_count - 1] : 0;
     if (!o->lightest || water / o->lightest > STEPS_MOST)
         return o;
     o->unit = (uint32_t)fmax(1, fmin(o->lightest, ceil((double)water / STEPS_LEAST)));
@@ -30,8 +31,8 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp
         return o;
     o->steps = water / o->unit;
     bool done = true;
-    for (size_t k = 0; k < BY_PRICES; k++) {
-        o->most_priced[k] = malloc(line->kind_count * (o->steps + 1) * sizeof(double));
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
+        o->most_priced[k] = malloc(list->kind_count * (o->steps + 1) * sizeof(double));
         done &= o->most_priced[k] != NULL;
     }
     done = done || sp_fail_memory(error);
@@ -45,7 +46,7 @@ void sp_tuples_destroy(sp_tuples *o)
 {
     if (!o)
         return;
-    for (size_t k = 0; k < BY_PRICES; k++)
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++)
         free(o->most_priced[k]);
     free(o->items);
     free(o->able);

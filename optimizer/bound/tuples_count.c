@@ -23,7 +23,7 @@ static bool bring(const sp_tuples *o, uint32_t one, const brought *from, brought
 {
     sp_rows row = {0};
     size_t texels = o->cover->texel_count;
-    if (!o->line->row(o->line->user, o->items[one].position, &row, error)) {
+    if (!o->list->row(o->list->user, o->items[one].position, &row, error)) {
         sp_rows_free(&row);
         return false;
     }

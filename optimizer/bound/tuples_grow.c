@@ -104,14 +104,14 @@ static void settle(const sp_tuples *o, level *at)
 {
     const double *lighter = NULL;
     size_t first = 0;
-    for (size_t k = 0; k < o->line->kind_count; k++) {
+    for (size_t k = 0; k < o->list->kind_count; k++) {
         size_t end = first;
         while (end < at->count && o->items[at->entries[end].at].kind == k)
             end++;
         sp_rank_falling(at->entries + first, end - first);
         at->end[k] = first = end;
     }
-    for (size_t k = o->line->kind_count; k-- > 0;) {
+    for (size_t k = o->list->kind_count; k-- > 0;) {
         size_t start = k ? at->end[k - 1] : 0;
         double *most = sp_tuples_of_kind(o, at->most, k);
         sp_tuples_fill_kind(o, k, at->end[k] > start ? at->entries[start].merit : 0, lighter, most);
@@ -178,7 +178,7 @@ static bool choose(worker *own, size_t depth, size_t i, double covered, const do
         own->work = INFINITY;
         return true;
     }
-    double with[BY_PRICES] = {0};
+    double with[BY_MULTIPLIERS] = {0};
     for (size_t k = 0; k < o->priced; k++)
         with[k] = priced[k] + (double)one->price[k];
     list_joining(own, depth, i, now, with, left);
@@ -203,7 +203,7 @@ static void grow(worker *own, size_t depth, double covered, const double *priced
 static bool worker_create(sp_tuples *o, worker *own)
 {
     *own = (worker){.all = o};
-    size_t deep = o->water / o->lightest, kinds = o->line->kind_count;
+    size_t deep = o->water / o->lightest, kinds = o->list->kind_count;
     own->united = malloc((o->sets.words + 1) * sizeof *own->united);
     if (!own->united)
         return false;
@@ -237,7 +237,7 @@ static void worker_free(worker *own)
 
 bool sp_tuples_enumerate(sp_tuples *o, sp_error *error)
 {
-    static const double none[BY_PRICES] = {0};
+    static const double none[BY_MULTIPLIERS] = {0};
     int threads = o->cover->threads;
     worker *workers = calloc((size_t)threads, sizeof *workers);
     bool done = workers != NULL;

@@ -10,14 +10,14 @@
 static bool find_rows(const sp_tuples *o, size_t first, size_t end, sp_rows *rows, sp_error *error)
 {
     sp_error failure = {0};
-    int threads = o->line->threads;
+    int threads = o->list->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = first; i < end; i++) {
         const sp_tuple_item *own = &o->items[o->able[i]];
         sp_rows *row = &rows[i - first];
         sp_error mine = {0};
         row->count = row->used = 0;
-        if (own->set == NO_SET && !o->line->row(o->line->user, own->position, row, &mine)) {
+        if (own->set == NO_SET && !o->list->row(o->list->user, own->position, row, &mine)) {
 #pragma omp critical(sp_tuples_rows)
             failure = mine;
         }
@@ -61,7 +61,7 @@ static bool build_sets(sp_tuples *o, sp_error *error)
 
 bool sp_tuples_list_able(sp_tuples *o, sp_error *error)
 {
-    static const double none[BY_PRICES] = {0};
+    static const double none[BY_MULTIPLIERS] = {0};
     free(o->able);
     o->able = malloc((o->count + 1) * sizeof *o->able);
     o->able_count = 0;

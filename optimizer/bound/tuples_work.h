@@ -1,4 +1,4 @@
-/* What the files of sp_tuples share: tuples_prices.c leaves out candidates by prices, tuples_sets.c makes sets of the
+/* What the files of sp_tuples share: tuples_pricing.c leaves out candidates by prices, tuples_sets.c makes sets of the
  * rest, tuples_grow.c chooses them one after the other, tuples_count.c counts exactly what comes above the target. */
 #ifndef OPTIMIZER_TUPLES_WORK_H
 #define OPTIMIZER_TUPLES_WORK_H
@@ -10,15 +10,16 @@
 #define WORK_ROW 2e5       /* words that take as long as a row */
 #define UPWARDS (1 + 1e-9) /* more than sums here are rounded by */
 #define NO_SET UINT32_MAX
-#define BY_PRICES 5 /* prices that layouts are told by: those given, the texels' areas, and what lies between */
+/* Multipliers that layouts are told by: those given, the texels' areas, and what lies between. */
+#define BY_MULTIPLIERS 5
 
 /* A candidate in question. */
 typedef struct {
     size_t position, kind;
     uint32_t weight, set; /* set: of the sets, NO_SET: not yet */
     size_t port;
-    float price[BY_PRICES], above; /* above: m², up to which targets are that prices leave it for */
-    double alone;                  /* m², of the set */
+    float price[BY_MULTIPLIERS], above; /* above: m², up to which targets are that multipliers leave it for */
+    double alone;                       /* m², of the set */
 } sp_tuple_item;
 
 /* A layout whose union comes above the target. */
@@ -28,14 +29,14 @@ typedef struct {
 
 struct sp_tuples {
     const sp_cover *cover;
-    const sp_line *line;
+    const sp_candidate_list *list;
     size_t water, most;
     double floor, bound, target;
-    double least;                   /* of targets, for which all candidates in question are items; INFINITY: of none */
-    size_t priced;                  /* of BY_PRICES, that tell anything */
-    double rest[BY_PRICES];         /* m² that the prices leave, base included */
-    double *most_priced[BY_PRICES]; /* [kinds][steps + 1], what candidates could add to sums of prices */
-    sp_tuple_item *items;           /* heavier ones first */
+    double least;                /* of targets, for which all candidates in question are items; INFINITY: of none */
+    size_t priced;               /* of BY_MULTIPLIERS, that tell anything */
+    double rest[BY_MULTIPLIERS]; /* m² that the multipliers leave, base included */
+    double *most_priced[BY_MULTIPLIERS]; /* [kinds][steps + 1], what candidates could add to sums of prices */
+    sp_tuple_item *items;                /* heavier ones first */
     size_t count, capacity;
     sp_bit_rows sets;
     uint32_t lightest, unit; /* unit: of a step */
@@ -52,13 +53,13 @@ struct sp_tuples {
 void sp_tuples_fill_kind(const sp_tuples *o, size_t kind, double best, const double *lighter, double *most);
 /* The kind's part of tables [kinds][steps + 1]. */
 double *sp_tuples_of_kind(const sp_tuples *o, double *tables, size_t kind);
-/* Could a layout that holds candidates worth `priced` and `more` [o->priced] by the prices, and others of the kind and
- * lighter in so much water, come above the target by all of them? */
+/* Could a layout that holds candidates worth `priced` and `more` [o->priced] by the multipliers, and others of the kind
+ * and lighter in so much water, come above the target by all of them? */
 bool sp_tuples_all_above(const sp_tuples *o, const double *priced, const float *more, size_t kind, size_t water);
 /* The lowest target, from the floor on, that no more than so many of the numbers lie above. */
 double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above, size_t count);
 /* Lists the candidates in question: `found` is what each is worth at u, or more. */
-bool sp_tuples_find_items(sp_tuples *o, const sp_prices *u, const float *found, sp_error *error);
+bool sp_tuples_find_items(sp_tuples *o, const sp_multipliers *u, const float *found, sp_error *error);
 /* Lists what could be part of a layout above the target, sets built. */
 bool sp_tuples_list_able(sp_tuples *o, sp_error *error);
 /* Every layout, by the first of its nozzles. */

@@ -31,56 +31,57 @@ static bool is_same(const sp_launch *a, const sp_launch *b)
 }
 
 /* False, with an error, where it sprays nothing. */
-static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
-                        sp_candidates *candidates, sp_error *error)
+static bool variant_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
+                           sp_candidates *candidates, sp_error *error)
 {
     sp_nozzle nozzle = {.type = type, .pressure = pressure};
     sp_launch launch;
-    sp_make make = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
-    make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
-    make.reach = type->pattern == SP_PATTERN_CLUSTER ? 0.5 * sp_nozzle_angle(&nozzle) : sp_spray_reach(&make.spray);
-    make.roll_count = rolls_of(type);
-    if (!(make.flow > 0) || !(sp_nozzle_speed(&nozzle, &setup->liquid) > 0))
+    sp_variant variant = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
+    variant.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
+    variant.reach =
+        type->pattern == SP_PATTERN_CLUSTER ? 0.5 * sp_nozzle_angle(&nozzle) : sp_spray_reach(&variant.spray);
+    variant.roll_count = rolls_of(type);
+    if (!(variant.flow > 0) || !(sp_nozzle_speed(&nozzle, &setup->liquid) > 0))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing", type->name,
                        pressure);
     if (!sp_launch_table_find(candidates->table, &nozzle, &launch, error))
         return false;
-    while (make.launch < candidates->launch_count && !is_same(&candidates->launches[make.launch], &launch))
-        make.launch++;
-    if (make.launch == candidates->launch_count)
+    while (variant.launch < candidates->launch_count && !is_same(&candidates->launches[variant.launch], &launch))
+        variant.launch++;
+    if (variant.launch == candidates->launch_count)
         candidates->launches[candidates->launch_count++] = launch;
-    candidates->makes[candidates->make_count++] = make;
+    candidates->variants[candidates->variant_count++] = variant;
     return true;
 }
 
 /* An adjustable type at its own angle and at the ends of what refinement may set: the search must see that it helps. */
-static bool type_makes(const sp_setup *setup, const sp_place_options *options, const sp_nozzle_type *type,
-                       double pressure, sp_candidates *candidates, sp_error *error)
+static bool type_variants(const sp_setup *setup, const sp_place_options *options, const sp_nozzle_type *type,
+                          double pressure, sp_candidates *candidates, sp_error *error)
 {
     double low, high;
     sp_angle_range(options, type, &low, &high);
-    return make_create(setup, type, pressure, type->angle, candidates, error) &&
-           (low >= type->angle || make_create(setup, type, pressure, low, candidates, error)) &&
-           (high <= type->angle || make_create(setup, type, pressure, high, candidates, error));
+    return variant_create(setup, type, pressure, type->angle, candidates, error) &&
+           (low >= type->angle || variant_create(setup, type, pressure, low, candidates, error)) &&
+           (high <= type->angle || variant_create(setup, type, pressure, high, candidates, error));
 }
 
-static bool makes_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
-                         sp_error *error)
+static bool variants_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
+                            sp_error *error)
 {
     if (!options->type_count || !options->pressure_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no %s to choose from",
                        options->type_count ? "pressure" : "type");
-    if (options->pressure_count > SIZE_MAX / ANGLES / sizeof(sp_make) / options->type_count)
+    if (options->pressure_count > SIZE_MAX / ANGLES / sizeof(sp_variant) / options->type_count)
         return sp_fail_memory(error);
     size_t most = options->type_count * options->pressure_count * ANGLES;
-    candidates->makes = calloc(most, sizeof *candidates->makes);
+    candidates->variants = calloc(most, sizeof *candidates->variants);
     candidates->launches = calloc(most, sizeof *candidates->launches);
-    if (!candidates->makes || !candidates->launches)
+    if (!candidates->variants || !candidates->launches)
         return sp_fail_memory(error);
     for (size_t t = 0; t < options->type_count; t++)
         for (size_t p = 0; p < options->pressure_count; p++)
-            if (!type_makes(setup, options, options->types[t],
-                            sp_fed_pressure(options->types[t], options->pressures[p]), candidates, error))
+            if (!type_variants(setup, options, options->types[t],
+                               sp_fed_pressure(options->types[t], options->pressures[p]), candidates, error))
                 return false;
     return true;
 }
@@ -114,17 +115,17 @@ typedef struct {
     double uniform, traced; /* times the usual step */
 } spacing;
 
-static double axis_step(const sp_make *make, const spacing *spacing)
+static double axis_step(const sp_variant *variant, const spacing *spacing)
 {
-    return (sp_type_is_uniform(make->type) ? spacing->uniform : spacing->traced) *
-           fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
+    return (sp_type_is_uniform(variant->type) ? spacing->uniform : spacing->traced) *
+           fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * variant->reach));
 }
 
-static double axis_tilt(const sp_make *make, const sp_mount *mount)
+static double axis_tilt(const sp_variant *variant, const sp_mount *mount)
 {
     /* what sprays all round is the same whatever its axis */
-    bool cone = sp_type_is_uniform(make->type) && make->spray.kind != SP_PATTERN_FLAT_FAN,
-         all_round = cone && make->spray.outer >= M_PI && make->spray.inner <= 0;
+    bool cone = sp_type_is_uniform(variant->type) && variant->spray.kind != SP_PATTERN_FLAT_FAN,
+         all_round = cone && variant->spray.outer >= M_PI && variant->spray.inner <= 0;
     return all_round ? 0 : fmin(M_PI, mount->tilt);
 }
 
@@ -144,15 +145,16 @@ static census take_census(const sp_place_options *options, const sp_sites *sites
             continue;
         counted = sites->items[i].mount;
         per_site = (census){0, 0};
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            if (!sp_mount_takes(mount, make->type))
+        for (size_t k = 0; k < candidates->variant_count; k++) {
+            const sp_variant *variant = &candidates->variants[k];
+            if (!sp_mount_takes(mount, variant->type))
                 continue;
-            double poses = (double)make->roll_count *
-                           (double)rings(axis_tilt(make, mount), axis_step(make, spacing), mount->tilt_step, NULL);
+            double poses =
+                (double)variant->roll_count *
+                (double)rings(axis_tilt(variant, mount), axis_step(variant, spacing), mount->tilt_step, NULL);
             per_site.poses += poses;
-            if (!sp_type_is_uniform(make->type))
-                per_site.traced += poses * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
+            if (!sp_type_is_uniform(variant->type))
+                per_site.traced += poses * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = variant->type});
         }
     }
     return all;
@@ -174,16 +176,16 @@ static bool axes_create(const sp_place_options *options, const sp_sites *sites, 
 {
     spacing spacing = spacing_for(options, sites, candidates);
     candidates->mount_count = options->mount_count;
-    candidates->axes = calloc(options->mount_count * candidates->make_count, sizeof *candidates->axes);
+    candidates->axes = calloc(options->mount_count * candidates->variant_count, sizeof *candidates->axes);
     if (!candidates->axes)
         return sp_fail_memory(error);
     for (size_t m = 0; m < options->mount_count; m++)
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            if (!sp_mount_takes(&options->mounts[m], make->type))
+        for (size_t k = 0; k < candidates->variant_count; k++) {
+            const sp_variant *variant = &candidates->variants[k];
+            if (!sp_mount_takes(&options->mounts[m], variant->type))
                 continue;
-            double step = axis_step(make, &spacing), tilt = axis_tilt(make, &options->mounts[m]);
-            sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
+            double step = axis_step(variant, &spacing), tilt = axis_tilt(variant, &options->mounts[m]);
+            sp_axes *axes = &candidates->axes[m * candidates->variant_count + k];
             sp_step setting = options->mounts[m].tilt_step;
             axes->axes = malloc(rings(tilt, step, setting, NULL) * sizeof *axes->axes);
             if (!axes->axes)
@@ -198,7 +200,7 @@ bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options 
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     *candidates = (sp_candidates){.table = sp_launches_create(evaluator, options, sites, error)};
-    if (!candidates->table || !makes_create(setup, options, candidates, error) ||
+    if (!candidates->table || !variants_create(setup, options, candidates, error) ||
         !axes_create(options, sites, candidates, error)) {
         sp_candidates_free(candidates);
         return false;
@@ -210,8 +212,9 @@ bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options 
     }
     for (size_t i = 0; i < sites->count; i++) {
         size_t count = 0;
-        for (size_t k = 0; k < candidates->make_count; k++)
-            count += sp_candidates_axes(candidates, sites->items[i].mount, k)->count * candidates->makes[k].roll_count;
+        for (size_t k = 0; k < candidates->variant_count; k++)
+            count +=
+                sp_candidates_axes(candidates, sites->items[i].mount, k)->count * candidates->variants[k].roll_count;
         candidates->pose_start[i + 1] = candidates->pose_start[i] + count;
     }
     return true;
@@ -219,10 +222,10 @@ bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options 
 
 void sp_candidates_free(sp_candidates *candidates)
 {
-    for (size_t i = 0; candidates->axes && i < candidates->mount_count * candidates->make_count; i++)
+    for (size_t i = 0; candidates->axes && i < candidates->mount_count * candidates->variant_count; i++)
         free(candidates->axes[i].axes);
     free(candidates->axes);
-    free(candidates->makes);
+    free(candidates->variants);
     free(candidates->launches);
     sp_launch_table_destroy(candidates->table);
     free(candidates->pose_start);
@@ -233,9 +236,9 @@ size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sit
 {
     size_t number = candidates->pose_start[pose.site];
     uint32_t mount = sites->items[pose.site].mount;
-    for (uint32_t k = 0; k < pose.make; k++)
-        number += sp_candidates_axes(candidates, mount, k)->count * candidates->makes[k].roll_count;
-    return number + pose.axis * candidates->makes[pose.make].roll_count + pose.roll;
+    for (uint32_t k = 0; k < pose.variant; k++)
+        number += sp_candidates_axes(candidates, mount, k)->count * candidates->variants[k].roll_count;
+    return number + pose.axis * candidates->variants[pose.variant].roll_count + pose.roll;
 }
 
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
@@ -243,23 +246,23 @@ sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
     return sp_unit(sp_add(sp_add(sp_scale(frame->x, axis.x), sp_scale(frame->y, axis.y)), sp_scale(frame->z, axis.z)));
 }
 
-double sp_make_roll(const sp_make *make, size_t i)
+double sp_variant_roll(const sp_variant *variant, size_t i)
 {
     /* Half a turn brings a fan back to itself. */
-    double turn = make->type->pattern == SP_PATTERN_FLAT_FAN ? M_PI : 2 * M_PI;
-    return turn * (double)i / (double)make->roll_count;
+    double turn = variant->type->pattern == SP_PATTERN_FLAT_FAN ? M_PI : 2 * M_PI;
+    return turn * (double)i / (double)variant->roll_count;
 }
 
 sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up)
 {
     const sp_site *site = &sites->items[pose.site];
-    const sp_make *make = &candidates->makes[pose.make];
-    const sp_axes *axes = sp_candidates_axes(candidates, site->mount, pose.make);
+    const sp_variant *variant = &candidates->variants[pose.variant];
+    const sp_axes *axes = sp_candidates_axes(candidates, site->mount, pose.variant);
     sp_frame frame = sp_nozzle_frame(site->axis, 0, up);
-    return (sp_nozzle){.type = make->type,
+    return (sp_nozzle){.type = variant->type,
                        .position = site->position,
                        .axis = sp_frame_axis(&frame, axes->axes[pose.axis]),
-                       .roll = sp_make_roll(make, pose.roll),
-                       .pressure = make->pressure,
-                       .angle = make->angle == make->type->angle ? 0 : make->angle};
+                       .roll = sp_variant_roll(variant, pose.roll),
+                       .pressure = variant->pressure,
+                       .angle = variant->angle == variant->type->angle ? 0 : variant->angle};
 }

@@ -3,7 +3,7 @@
 #include "mesh/grow.h"
 
 #include "mesh/distance.h"
-#include "watch/watch.h"
+#include "deadline/deadline.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 #include "certificate/aim_bound.h"
 
-#include "certificate/aim_prices.h"
+#include "certificate/aim_pricing.h"
 
 #include <stdlib.h>
 
@@ -17,13 +17,13 @@ typedef struct {
     sp_cover cover;
     sp_water_units units;
     sp_aim_kinds kinds;
-    double *outlays; /* [outlay_count], of all that may be taken, the makes' at every cost first */
+    double *outlays; /* [outlay_count], of all that may be taken, the variants' at every cost first */
     size_t outlay_count;
     uint32_t *weight;   /* [tiers] */
     uint32_t **tier_of; /* [mounts x kinds][steps] */
-    uint32_t *none;     /* [mounts x makes], for the poses' prices, which are not asked */
-    sp_pose_prices *poses;
-    sp_aim_prices *prices;
+    uint32_t *none;     /* [mounts x variants], for the poses' pricing, which is not asked */
+    sp_pose_pricing *poses;
+    sp_aim_pricing *pricing;
     sp_pricer pricer;
     sp_bound bound;
 } aiming;
@@ -31,8 +31,8 @@ typedef struct {
 static void aiming_free(aiming *a)
 {
     sp_bound_free(&a->bound);
-    sp_aim_prices_destroy(a->prices);
-    sp_pose_prices_destroy(a->poses);
+    sp_aim_pricing_destroy(a->pricing);
+    sp_pose_pricing_destroy(a->poses);
     for (size_t i = 0; a->tier_of && i < a->task->search->options->mount_count * a->kinds.count; i++)
         free(a->tier_of[i]);
     free(a->tier_of);
@@ -51,20 +51,20 @@ static void list_at(aiming *a, double flow)
 static bool list_outlays(aiming *a, sp_error *error)
 {
     const sp_candidates *candidates = a->task->search->candidates;
-    size_t count = candidates->make_count * a->task->cost_count;
+    size_t count = candidates->variant_count * a->task->cost_count;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        count += sp_front_draft(a->front, i)->count;
+        count += sp_front_partial(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
         count += a->kinds.items[k].step_count * a->task->cost_count;
     a->outlays = malloc((count + 1) * sizeof *a->outlays);
     a->weight = malloc((count + 1) * sizeof *a->weight);
     if (!a->outlays || !a->weight)
         return sp_fail_memory(error);
-    for (size_t k = 0; k < candidates->make_count; k++)
-        list_at(a, candidates->makes[k].flow);
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        list_at(a, candidates->variants[k].flow);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
-            a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_draft(a->front, i)->items[n]);
+        for (size_t n = 0; n < sp_front_partial(a->front, i)->count; n++)
+            a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_partial(a->front, i)->items[n]);
     for (size_t k = 0; k < a->kinds.count; k++)
         for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
             list_at(a, a->kinds.items[k].edge[step]);
@@ -80,7 +80,7 @@ static bool set_limits(aiming *a)
     for (size_t i = 0; i < a->outlay_count; i++)
         least = fmin(least, a->outlays[i]);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(a->front, i)->outlay - search->kept_flow);
+        most = fmax(most, sp_front_partial(a->front, i)->outlay - search->kept_flow);
     if (!(most >= least))
         return false;
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -88,7 +88,7 @@ static bool set_limits(aiming *a)
         a->cover.nozzles = limit - search->kept_count;
     if (a->cover.nozzles > SP_NOZZLES_MOST)
         return false;
-    a->units = sp_water_units_create(a->outlays, search->candidates->make_count * a->task->cost_count, least,
+    a->units = sp_water_units_create(a->outlays, search->candidates->variant_count * a->task->cost_count, least,
                                      a->cover.nozzles, most);
     a->cover.water = sp_water_budget(&a->units, most);
     return true;
@@ -111,7 +111,7 @@ static bool set_tiers(aiming *a, sp_error *error)
     const sp_search *search = a->task->search;
     size_t mounts = search->options->mount_count, kinds = a->kinds.count;
     a->tier_of = calloc(mounts * kinds + 1, sizeof *a->tier_of);
-    a->none = calloc(mounts * search->candidates->make_count + 1, sizeof *a->none);
+    a->none = calloc(mounts * search->candidates->variant_count + 1, sizeof *a->none);
     if (!a->tier_of || !a->none)
         return sp_fail_memory(error);
     for (size_t i = 0; i < a->outlay_count; i++)
@@ -134,10 +134,10 @@ static bool add_rows(aiming *a, sp_error *error)
 {
     const sp_rows *rows = a->task->rows;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
-            const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
+        for (size_t n = 0; n < sp_front_partial(a->front, i)->count; n++) {
+            const sp_placed *placed = &sp_front_partial(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, sp_placed_outlay(a->task->search, placed)));
-            if (!sp_pose_prices_found(a->poses, placed, tier, &a->bound.rows, error))
+            if (!sp_pose_pricing_found(a->poses, placed, tier, &a->bound.rows, error))
                 return false;
         }
     for (size_t c = 0; c < rows->count && a->units.unit == a->task->units->unit; c++) {
@@ -156,14 +156,14 @@ static bool prepare(aiming *a, sp_error *error)
     const sp_aim_task *task = a->task;
     if (!set_tiers(a, error))
         return false;
-    a->poses = sp_pose_prices_create(task->search, &a->cover, a->none, task->need, NULL, task->ports, error);
+    a->poses = sp_pose_pricing_create(task->search, &a->cover, a->none, task->need, NULL, task->ports, error);
     if (!a->poses)
         return false;
-    a->prices = sp_aim_prices_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,
-                                     task->ports, a->poses, error);
-    if (!a->prices)
+    a->pricing = sp_aim_pricing_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,
+                                       task->ports, a->poses, error);
+    if (!a->pricing)
         return false;
-    a->pricer = sp_aim_pricer(a->prices);
+    a->pricer = sp_aim_pricer(a->pricing);
     return sp_bound_create(&a->cover, &a->pricer, &a->bound, error) && add_rows(a, error);
 }
 
@@ -175,7 +175,7 @@ static size_t budget_of(const aiming *a, double outlay)
 
 static bool lower(aiming *a, size_t water, size_t rounds, sp_error *error)
 {
-    sp_aim_prices_seek(a->prices, water);
+    sp_aim_pricing_seek(a->pricing, water);
     for (size_t round = 0; round < rounds && sp_cover_goes_on(&a->cover); round++)
         if (!sp_bound_lower(&a->bound, water, error))
             return false;
@@ -270,7 +270,7 @@ bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *cert
     a.cover.sums = NULL; /* flows between the candidates' come to others */
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.every_aim_bound = NAN;
-    if (!sp_watch_stage(task->watch, "certificate", error))
+    if (!sp_deadline_stage(task->deadline, "certificate", error))
         return false;
     bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_outlays(&a, error);
     if (done && set_limits(&a)) {
@@ -280,5 +280,5 @@ bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *cert
             conclude(&a, front, certificate);
     }
     aiming_free(&a);
-    return done && sp_watch_stage(task->watch, "every aim", error);
+    return done && sp_deadline_stage(task->deadline, "every aim", error);
 }

@@ -9,7 +9,7 @@
 /* What the certificate of the candidates has made, all borrowed. */
 typedef struct {
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     const sp_cover *cover;
     const sp_water_units *units;
     const float *need;   /* [patches] */

@@ -12,12 +12,12 @@
 #define SMALLER 0.7       /* than the tilt are the squares into which all axes fall first */
 #define MARGIN 1e-5       /* rad, beyond what single precision puts on the wrong side of a pattern's edge */
 
-static bool kind_create(const sp_search *search, const sp_make *make, sp_aim_kind *kind)
+static bool kind_create(const sp_search *search, const sp_variant *variant, sp_aim_kind *kind)
 {
     double low, high;
-    *kind = (sp_aim_kind){.type = make->type, .pressure = make->pressure, .launch = make->launch};
-    sp_angle_range(search->options, make->type, &kind->angle_low, &kind->angle_high);
-    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), make->type, make->pressure, &low, &high);
+    *kind = (sp_aim_kind){.type = variant->type, .pressure = variant->pressure, .launch = variant->launch};
+    sp_angle_range(search->options, variant->type, &kind->angle_low, &kind->angle_high);
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), variant->type, variant->pressure, &low, &high);
     kind->step_count = high > low * (1 + 1e-9) ? FLOW_STEPS : 1;
     kind->edge = malloc((kind->step_count + 1) * sizeof *kind->edge);
     for (size_t i = 0; kind->edge && i <= kind->step_count; i++)
@@ -25,19 +25,19 @@ static bool kind_create(const sp_search *search, const sp_make *make, sp_aim_kin
     return kind->edge;
 }
 
-/* Makes of one kind follow one another. */
+/* Variants of one kind follow one another. */
 bool sp_aim_kinds_create(const sp_search *search, sp_aim_kinds *kinds, sp_error *error)
 {
     const sp_candidates *candidates = search->candidates;
-    *kinds = (sp_aim_kinds){.items = calloc(candidates->make_count, sizeof *kinds->items)};
+    *kinds = (sp_aim_kinds){.items = calloc(candidates->variant_count, sizeof *kinds->items)};
     bool done = kinds->items;
-    for (size_t k = 0; done && k < candidates->make_count; k++) {
-        const sp_make *make = &candidates->makes[k];
+    for (size_t k = 0; done && k < candidates->variant_count; k++) {
+        const sp_variant *variant = &candidates->variants[k];
         const sp_aim_kind *last = kinds->count ? &kinds->items[kinds->count - 1] : NULL;
-        if (last && last->type == make->type && last->pressure == make->pressure)
+        if (last && last->type == variant->type && last->pressure == variant->pressure)
             continue;
-        done = kind_create(search, make, &kinds->items[kinds->count]);
-        kinds->items[kinds->count++].make = k;
+        done = kind_create(search, variant, &kinds->items[kinds->count]);
+        kinds->items[kinds->count++].variant = k;
     }
     return done || sp_fail_memory(error);
 }

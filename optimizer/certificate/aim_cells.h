@@ -5,7 +5,7 @@
 #ifndef OPTIMIZER_AIM_CELLS_H
 #define OPTIMIZER_AIM_CELLS_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 #define SP_AIM_CHILDREN 64
 
@@ -13,7 +13,7 @@
 typedef struct {
     const sp_nozzle_type *type;
     double pressure;              /* Pa */
-    size_t launch, make;          /* make: the first of the candidates' makes that are of this kind */
+    size_t launch, variant;       /* variant: the first of the candidates' variants that are of this kind */
     double angle_low, angle_high; /* rad */
     size_t step_count;            /* flows from edge[i] to edge[i + 1], m³/s */
     double *edge;                 /* [step_count + 1] */
@@ -24,7 +24,7 @@ typedef struct {
     sp_aim_kind *items;
 } sp_aim_kinds;
 
-/* The kinds of the candidates' makes, as far as refinement may open and throttle them. */
+/* The kinds of the candidates' variants, as far as refinement may open and throttle them. */
 bool sp_aim_kinds_create(const sp_search *search, sp_aim_kinds *kinds, sp_error *error);
 void sp_aim_kinds_free(sp_aim_kinds *kinds);
 

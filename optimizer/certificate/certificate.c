@@ -7,25 +7,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define ROUNDS_EXPLORING 4   /* of looking at some of the poses first */
-#define EXPLORING_MOST 0.2   /* of the time left, for those */
-#define ROUNDS_FIRST 2       /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1       /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 2       /* such waters */
-#define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
-#define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
-#define WORK_EACH 1.5e4      /* the same, besides, for every candidate */
-#define WORK_BEGIN 3e3       /* that a solve and a pricing of all take, for every candidate */
-#define WORK_LOOK 4e2        /* that it takes to find the candidates of a point, the same */
-#define WORK_POINT_LEAST 3e8 /* that a point may take at first */
-#define WORK_POINT 2e3       /* the same, besides, for every candidate */
-#define WORK_STEP 5          /* times what a target took the next one is likely to take */
-#define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
-#define CANDIDATES_STEP 4    /* times as many then */
-#define CANDIDATES 12800     /* most that come into question for it */
-#define WATER_NEAR 1.25      /* times less water is so near that the same prices say something */
-#define WATER_LIKE 1.1       /* the same, and need not be priced for again */
-#define ROUNDS_LIFTED 3      /* at least, so that the lifts have settled */
+#define ROUNDS_EXPLORING 4    /* of looking at some of the poses first */
+#define EXPLORING_MOST 0.2    /* of the time left, for those */
+#define ROUNDS_FIRST 2        /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1        /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 2        /* such waters */
+#define STEP_WATER 0.4        /* of the way to the proposal's water, for the first of them */
+#define WORK_LEAST 3e9        /* at the front's points, in words of sp_tuples */
+#define WORK_EACH 1.5e4       /* the same, besides, for every candidate */
+#define WORK_BEGIN 3e3        /* that a solve and a pricing of all take, for every candidate */
+#define WORK_LOOK 4e2         /* that it takes to find the candidates of a point, the same */
+#define WORK_POINT_LEAST 3e8  /* that a point may take at first */
+#define WORK_POINT 2e3        /* the same, besides, for every candidate */
+#define WORK_STEP 5           /* times what a target took the next one is likely to take */
+#define CANDIDATES_FIRST 800  /* that layouts are made of one by one, at first */
+#define CANDIDATES_STEP 4     /* times as many then */
+#define CANDIDATES 12800      /* most that come into question for it */
+#define WATER_NEAR 1.25       /* times less water is so near that the same multipliers say something */
+#define WATER_LIKE 1.1        /* the same, and need not be priced for again */
+#define ROUNDS_STRENGTHENED 3 /* at least, so that the inequalities have settled */
 /* with --prove: */
 #define ROUNDS_PROVING 2 /* at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
@@ -61,7 +61,7 @@ typedef struct {
 
 typedef struct {
     sp_problem problem;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_bound bound;
     size_t point_count;
     point *points;
@@ -79,9 +79,9 @@ static void certifying_free(certifying *c)
 static bool goes_on(void *user)
 {
     const certifying *c = user;
-    bool on = sp_watch_has_time(c->watch, "certificate", c->done);
+    bool on = sp_deadline_has_time(c->deadline, "certificate", c->done);
     if (!on)
-        sp_watch_cut(c->watch, "certificate");
+        sp_deadline_cut(c->deadline, "certificate");
     return on;
 }
 
@@ -90,8 +90,8 @@ static double found_within(const certifying *c, size_t water)
 {
     double most = c->problem.cover.base;
     for (size_t i = 0; i <= c->problem.front->by_water.count; i++)
-        if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay) <= water)
-            most = fmax(most, sp_draft_counted(c->problem.search, sp_front_draft(c->problem.front, i)));
+        if (sp_problem_budget(&c->problem, sp_front_partial(c->problem.front, i)->outlay) <= water)
+            most = fmax(most, sp_partial_counted(c->problem.search, sp_front_partial(c->problem.front, i)));
     return most;
 }
 
@@ -105,7 +105,7 @@ static bool prepare(certifying *c, sp_error *error)
     if (!c->points)
         return sp_fail_memory(error);
     for (size_t i = 0; i < c->point_count; i++) {
-        c->points[i].water = sp_problem_budget(problem, sp_front_draft(problem->front, i)->outlay);
+        c->points[i].water = sp_problem_budget(problem, sp_front_partial(problem->front, i)->outlay);
         c->points[i].found = found_within(c, c->points[i].water);
     }
     return sp_bound_create(&problem->cover, &problem->pricer, &c->bound, error) &&
@@ -124,7 +124,7 @@ static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_er
     for (size_t round = 0; round < rounds && has_time(c, done); round++) {
         if (!sp_bound_lower(&c->bound, water, error))
             return false;
-        if (c->bound.closed && round >= ROUNDS_LIFTED)
+        if (c->bound.closed && round >= ROUNDS_STRENGTHENED)
             break;
     }
     return true;
@@ -154,7 +154,7 @@ static double open_at(const certifying *c, size_t i)
     return fmax(0, 1 - c->points[i].found / c->bound.by_water[c->points[i].water]);
 }
 
-/* True of a point of as much water as another, or so little less that prices for that one do. */
+/* True of a point of as much water as another, or so little less that multipliers for that one do. */
 static bool is_like(const certifying *c, size_t i, size_t other, double times)
 {
     double water = (double)c->points[i].water, most = (double)c->points[other].water;
@@ -182,9 +182,9 @@ static size_t next_point(const certifying *c)
     return found;
 }
 
-/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide prices
- * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about.
- */
+/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide
+ * multipliers are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap
+ * is about. */
 static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
     size_t iterations = c->bound.iterations;
@@ -208,18 +208,18 @@ static void note_bound(certifying *c, size_t water, double bound)
     sp_bound_settle(&c->bound);
 }
 
-/* Looks at the layouts of so much water one by one, by the prices that the bound was last proved with, for those that
- * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a
- * few candidates come up to, then more, while there is work left. */
+/* Looks at the layouts of so much water one by one, by the multipliers that the bound was last proved with, for those
+ * that cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that
+ * a few candidates come up to, then more, while there is work left. */
 static bool look_at(certifying *c, size_t water, double found, double least, effort most, double *work, sp_error *error)
 {
     const double *bound = &c->bound.by_water[water];
     const sp_tuple_task task = {
-        water, found, *bound, most.candidates, &c->bound.dual.price, sp_pose_prices_last(c->problem.prices)};
+        water, found, *bound, most.candidates, &c->bound.dual.multipliers, sp_pose_pricing_last(c->problem.pricing)};
     sp_tuple_answer answer = {.complete = true, .bound = *bound};
-    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, &task, error);
+    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.list, &task, error);
     bool done = tuples != NULL, better = false;
-    *work += WORK_LOOK * (double)c->problem.line.count;
+    *work += WORK_LOOK * (double)c->problem.list.count;
     for (size_t count = CANDIDATES_FIRST;
          done && answer.complete && !better && *bound > found * (1 + least) && count <= most.candidates &&
          most.each > WORK_STEP * answer.work && has_time(c, c->done);
@@ -244,7 +244,7 @@ static bool look_at(certifying *c, size_t water, double found, double least, eff
 static bool take_turn(certifying *c, size_t i, effort most, double *work, sp_error *error)
 {
     const point *own = &c->points[i];
-    *work += WORK_BEGIN * (double)(most.rounds * c->problem.line.count);
+    *work += WORK_BEGIN * (double)(most.rounds * c->problem.list.count);
     if (!price_for(c, own->water, open_at(c, i), most.rounds, error))
         return false;
     for (size_t k = 0; k < c->point_count && c->bound.complete; k++) {
@@ -282,7 +282,7 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
         if (!water || water >= most)
             return true;
         size_t higher = water + (size_t)ceil(step * (double)(most - water));
-        work += WORK_BEGIN * (double)(effort.rounds * c->problem.line.count);
+        work += WORK_BEGIN * (double)(effort.rounds * c->problem.list.count);
         if (!price_for(c, higher, 0, effort.rounds, error) ||
             (c->bound.complete && c->bound.by_water[higher] >= area &&
              !look_at(c, higher, area * (1 - LESS), 0, effort, &work, error)))
@@ -295,7 +295,7 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
 /* What a point may take at first. */
 static double work_at_point(const certifying *c)
 {
-    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.line.count;
+    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.list.count;
 }
 
 /* The bounds at the proposal once more, more carefully, then the front's. */
@@ -318,10 +318,10 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
+    double left = sp_deadline_left(c->deadline), candidates = (double)c->problem.list.count;
     const effort most = {WORK_LEAST + WORK_EACH * candidates, work_at_point(c), 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
-        if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
+        if (sp_deadline_left(c->deadline) < left * (1 - EXPLORING_MOST))
             break;
         else if (!sp_bound_explore(&c->bound, water, error))
             return false;
@@ -333,14 +333,14 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 /* Notes the bounds of the candidates. */
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
-    double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
+    double whole = 0, counted = sp_partial_counted(c->problem.search, &front->best);
     /* added up as what is counted is: all of it is no more than the whole, to the last bit */
     for (size_t p = 0; p < c->problem.search->patch_count; p++)
         whole += (double)c->problem.search->area[p];
     whole *= c->problem.search->all;
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
-        point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);
+        point->counted = sp_partial_counted(c->problem.search, &front->by_water.entries[i].partial);
         point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->outlay)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
@@ -361,13 +361,13 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
 static bool certify(certifying *c, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     size_t water = sp_problem_budget(&c->problem, front->best.outlay);
-    double area = sp_draft_counted(c->problem.search, &front->best);
+    double area = sp_partial_counted(c->problem.search, &front->best);
     if (!lower_all(c, water, area, error))
         return false;
     if (!c->bound.proofs)
         return true;
     conclude(c, front, certificate);
-    const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover,
+    const sp_aim_task task = {c->problem.search, c->deadline,      &c->problem.cover,
                               &c->problem.units, c->problem.need,  c->problem.ports,
                               &c->bound.rows,    c->problem.costs, c->problem.cost_count};
     /* film has no discs of aims: what runs down depends on all that hits above; and footprints are of single poses */
@@ -381,15 +381,16 @@ static bool certify(certifying *c, sp_front *front, sp_certificate *certificate,
     return done;
 }
 
-bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
+bool sp_certify(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_certificate *certificate,
+                sp_error *error)
 {
-    certifying c = {.watch = watch};
+    certifying c = {.deadline = deadline};
     bool possible;
     *certificate = (sp_certificate){0};
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound =
             front->by_water.entries[i].point.every_aim_bound = NAN;
-    if (watch->cancelled || !front->found)
+    if (deadline->cancelled || !front->found)
         return true;
     bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&
                 (!possible || (prepare(&c, error) && certify(&c, front, certificate, error)));

@@ -6,7 +6,7 @@
 
 /* Bounds what any layout of the search's candidates and of the front's own nozzles could do, and notes it at every
  * point of the front too. Not computed where nothing may be placed or the run is cancelled before the first proof. */
-bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate,
+bool sp_certify(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_certificate *certificate,
                 sp_error *error);
 
 #endif

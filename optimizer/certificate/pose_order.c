@@ -54,7 +54,7 @@ static uint32_t *order_points(const sp_vec3 *points, size_t count)
 static bool order_axes(sp_pose_order *order)
 {
     const sp_candidates *candidates = order->search->candidates;
-    size_t count = candidates->mount_count * candidates->make_count;
+    size_t count = candidates->mount_count * candidates->variant_count;
     order->axis_at = calloc(count + 1, sizeof *order->axis_at);
     order->rank_of = calloc(count + 1, sizeof *order->rank_of);
     if (!order->axis_at || !order->rank_of)
@@ -95,7 +95,7 @@ static uint32_t *order_sites(const sp_sites *sites)
     return NULL;
 }
 
-/* What a line in the making is made of. */
+/* What a list is built from. */
 typedef struct {
     sp_pose_order *order;
     const sp_cover *cover;
@@ -103,42 +103,42 @@ typedef struct {
     const size_t *ports;
     uint32_t *sites;
     uint32_t *tiers; /* by falling weight */
-} lining;
+} list_builder;
 
-/* Ends the line with a block of so many candidates. */
-static void add_block(lining *l, sp_pose_block block, size_t port, size_t count)
+/* Ends the list with a block of so many candidates. */
+static void add_block(list_builder *l, sp_pose_block block, size_t port, size_t count)
 {
-    sp_line *line = &l->order->line;
-    size_t kind = line->kind_count - 1;
-    block.start = line->count;
+    sp_candidate_list *list = &l->order->list;
+    size_t kind = list->kind_count - 1;
+    block.start = list->count;
     l->order->blocks[l->order->block_count++] = block;
-    bool goes_on = line->run_count && line->run_start[line->run_count - 1] >= line->kind_start[kind] &&
-                   line->run_port[line->run_count - 1] == port;
+    bool goes_on = list->run_count && list->run_start[list->run_count - 1] >= list->kind_start[kind] &&
+                   list->run_port[list->run_count - 1] == port;
     if (!goes_on) {
-        line->run_start[line->run_count] = line->count;
-        line->run_port[line->run_count++] = port;
+        list->run_start[list->run_count] = list->count;
+        list->run_port[list->run_count++] = port;
     }
-    line->count += count;
+    list->count += count;
 }
 
-/* The make's poses in mounts where it is of the tier. */
-static void add_make(lining *l, uint32_t make, uint32_t tier)
+/* The variant's poses in mounts where it is of the tier. */
+static void add_variant(list_builder *l, uint32_t variant, uint32_t tier)
 {
     const sp_search *search = l->order->search;
     const sp_candidates *candidates = search->candidates;
     for (size_t i = 0; i < search->sites->count; i++) {
         uint32_t site = l->sites[i], mount = search->sites->items[site].mount;
-        size_t poses = sp_candidates_axes(candidates, mount, make)->count * candidates->makes[make].roll_count;
-        if (!poses || l->tier_of[mount * candidates->make_count + make] != tier || search->port_taken[mount] ||
-            !sp_search_knows(search, site, make))
+        size_t poses = sp_candidates_axes(candidates, mount, variant)->count * candidates->variants[variant].roll_count;
+        if (!poses || l->tier_of[mount * candidates->variant_count + variant] != tier || search->port_taken[mount] ||
+            !sp_search_knows(search, site, variant))
             continue;
-        l->order->block_of[site * candidates->make_count + make] = l->order->block_count;
-        add_block(l, (sp_pose_block){0, site, make}, l->ports[mount], poses);
+        l->order->block_of[site * candidates->variant_count + variant] = l->order->block_count;
+        add_block(l, (sp_pose_block){0, site, variant}, l->ports[mount], poses);
     }
 }
 
 /* Found nozzles of the tier, port by port. */
-static void add_found(lining *l, uint32_t tier, size_t *listed)
+static void add_found(list_builder *l, uint32_t tier, size_t *listed)
 {
     const sp_rows *own = l->order->own;
     for (size_t port = 0; port <= l->cover->port_count; port++) {
@@ -151,9 +151,9 @@ static void add_found(lining *l, uint32_t tier, size_t *listed)
     }
 }
 
-static void fill(lining *l)
+static void fill(list_builder *l)
 {
-    sp_line *line = &l->order->line;
+    sp_candidate_list *list = &l->order->list;
     size_t listed = 0;
     for (size_t i = 0; i < l->cover->tier_count; i++) {
         size_t at = i;
@@ -163,34 +163,34 @@ static void fill(lining *l)
     }
     for (size_t i = 0; i < l->cover->tier_count; i++) {
         uint32_t tier = l->tiers[i];
-        size_t before = line->count;
-        line->kind_start[line->kind_count] = before;
-        line->weight[line->kind_count++] = l->cover->weight[tier];
-        for (uint32_t k = 0; k < l->order->search->candidates->make_count; k++)
-            add_make(l, k, tier);
+        size_t before = list->count;
+        list->kind_start[list->kind_count] = before;
+        list->weight[list->kind_count++] = l->cover->weight[tier];
+        for (uint32_t k = 0; k < l->order->search->candidates->variant_count; k++)
+            add_variant(l, k, tier);
         add_found(l, tier, &listed);
-        line->kind_count -= line->count == before;
+        list->kind_count -= list->count == before;
     }
-    line->kind_start[line->kind_count] = line->run_start[line->run_count] = line->count;
-    l->order->blocks[l->order->block_count].start = line->count;
+    list->kind_start[list->kind_count] = list->run_start[list->run_count] = list->count;
+    l->order->blocks[l->order->block_count].start = list->count;
 }
 
 bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of, const size_t *ports,
                           const sp_rows *own, sp_pose_order *order, sp_error *error)
 {
-    size_t cells = search->sites->count * search->candidates->make_count, blocks = cells + own->count + 1;
+    size_t cells = search->sites->count * search->candidates->variant_count, blocks = cells + own->count + 1;
     *order = (sp_pose_order){.search = search, .own = own};
     order->own_order = malloc((own->count + 1) * sizeof *order->own_order);
     order->blocks = malloc(blocks * sizeof *order->blocks);
     order->block_of = malloc((cells + 1) * sizeof *order->block_of);
-    order->line.kind_start = malloc((cover->tier_count + 1) * sizeof(size_t));
-    order->line.weight = malloc((cover->tier_count + 1) * sizeof(uint32_t));
-    order->line.run_start = malloc(blocks * sizeof(size_t));
-    order->line.run_port = malloc(blocks * sizeof(size_t));
-    lining l = {
+    order->list.kind_start = malloc((cover->tier_count + 1) * sizeof(size_t));
+    order->list.weight = malloc((cover->tier_count + 1) * sizeof(uint32_t));
+    order->list.run_start = malloc(blocks * sizeof(size_t));
+    order->list.run_port = malloc(blocks * sizeof(size_t));
+    list_builder l = {
         order, cover, tier_of, ports, order_sites(search->sites), malloc((cover->tier_count + 1) * sizeof(uint32_t))};
-    bool done = order->own_order && order->blocks && order->block_of && order->line.kind_start && order->line.weight &&
-                order->line.run_start && order->line.run_port && l.sites && l.tiers && order_axes(order);
+    bool done = order->own_order && order->blocks && order->block_of && order->list.kind_start && order->list.weight &&
+                order->list.run_start && order->list.run_port && l.sites && l.tiers && order_axes(order);
     for (size_t i = 0; done && i < cells; i++)
         order->block_of[i] = SIZE_MAX;
     if (done)
@@ -205,7 +205,8 @@ bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const 
 
 void sp_pose_order_free(sp_pose_order *order)
 {
-    size_t count = order->search ? order->search->candidates->mount_count * order->search->candidates->make_count : 0;
+    size_t count =
+        order->search ? order->search->candidates->mount_count * order->search->candidates->variant_count : 0;
     for (size_t i = 0; i < count; i++) {
         free(order->axis_at ? order->axis_at[i] : NULL);
         free(order->rank_of ? order->rank_of[i] : NULL);
@@ -215,7 +216,7 @@ void sp_pose_order_free(sp_pose_order *order)
     free(order->own_order);
     free(order->blocks);
     free(order->block_of);
-    sp_line_free(&order->line);
+    sp_candidate_list_free(&order->list);
     *order = (sp_pose_order){0};
 }
 
@@ -237,17 +238,17 @@ sp_pose sp_pose_order_at(const sp_pose_order *order, size_t block, size_t positi
     const sp_candidates *candidates = order->search->candidates;
     const sp_pose_block *own = &order->blocks[block];
     uint32_t mount = order->search->sites->items[own->site].mount;
-    size_t rolls = candidates->makes[own->make].roll_count, within = position - own->start;
-    const uint32_t *axis_at = order->axis_at[mount * candidates->make_count + own->make];
-    return (sp_pose){own->site, own->make, axis_at[within / rolls], (uint32_t)(within % rolls)};
+    size_t rolls = candidates->variants[own->variant].roll_count, within = position - own->start;
+    const uint32_t *axis_at = order->axis_at[mount * candidates->variant_count + own->variant];
+    return (sp_pose){own->site, own->variant, axis_at[within / rolls], (uint32_t)(within % rolls)};
 }
 
 size_t sp_pose_order_position(const sp_pose_order *order, sp_pose pose)
 {
     const sp_candidates *candidates = order->search->candidates;
     uint32_t mount = order->search->sites->items[pose.site].mount;
-    size_t block = order->block_of[pose.site * candidates->make_count + pose.make];
-    const uint32_t *rank_of = order->rank_of[mount * candidates->make_count + pose.make];
-    return order->blocks[block].start + (size_t)rank_of[pose.axis] * candidates->makes[pose.make].roll_count +
+    size_t block = order->block_of[pose.site * candidates->variant_count + pose.variant];
+    const uint32_t *rank_of = order->rank_of[mount * candidates->variant_count + pose.variant];
+    return order->blocks[block].start + (size_t)rank_of[pose.axis] * candidates->variants[pose.variant].roll_count +
            pose.roll;
 }

@@ -35,17 +35,17 @@ static bool list_outlays(sp_problem *p, sp_error *error)
     const sp_candidates *candidates = p->search->candidates;
     p->costs = sp_list_costs(p->search->options, &p->cost_count);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        p->own += sp_front_draft(p->front, i)->count;
-    p->outlays = malloc((p->cost_count * candidates->make_count + p->own + 1) * sizeof *p->outlays);
+        p->own += sp_front_partial(p->front, i)->count;
+    p->outlays = malloc((p->cost_count * candidates->variant_count + p->own + 1) * sizeof *p->outlays);
     if (!p->costs || !p->outlays)
         return sp_fail_memory(error);
     size_t count = 0;
     for (size_t c = 0; c < p->cost_count; c++)
-        for (size_t k = 0; k < candidates->make_count; k++)
-            p->outlays[count++] = candidates->makes[k].flow + p->costs[c];
+        for (size_t k = 0; k < candidates->variant_count; k++)
+            p->outlays[count++] = candidates->variants[k].flow + p->costs[c];
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
-            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_draft(p->front, i)->items[n]);
+        for (size_t n = 0; n < sp_front_partial(p->front, i)->count; n++)
+            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_partial(p->front, i)->items[n]);
     return true;
 }
 
@@ -63,10 +63,10 @@ static uint32_t tier_for(sp_problem *p, double outlay)
 static bool set_limits(sp_problem *p)
 {
     const sp_search *search = p->search;
-    size_t listed = p->cost_count * search->candidates->make_count, limit = search->options->max_nozzles;
+    size_t listed = p->cost_count * search->candidates->variant_count, limit = search->options->max_nozzles;
     double most = 0, least = least_of(p->outlays, listed + p->own);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(p->front, i)->outlay - search->kept_flow);
+        most = fmax(most, sp_front_partial(p->front, i)->outlay - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
     p->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -82,18 +82,18 @@ static bool set_limits(sp_problem *p)
 static bool set_tiers(sp_problem *p, sp_error *error)
 {
     const sp_search *search = p->search;
-    size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
-    p->weight = malloc((p->cost_count * makes + p->own + 1) * sizeof *p->weight);
-    p->tier_of = malloc((mounts * makes + 1) * sizeof *p->tier_of);
+    size_t variants = search->candidates->variant_count, mounts = search->options->mount_count;
+    p->weight = malloc((p->cost_count * variants + p->own + 1) * sizeof *p->weight);
+    p->tier_of = malloc((mounts * variants + 1) * sizeof *p->tier_of);
     p->ports = malloc((mounts + 1) * sizeof *p->ports);
     if (!p->weight || !p->tier_of || !p->ports)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < p->cost_count * makes + p->own; i++)
+    for (size_t i = 0; i < p->cost_count * variants + p->own; i++)
         tier_for(p, p->outlays[i]);
     for (size_t m = 0; m < mounts; m++)
-        for (size_t k = 0; k < makes; k++)
-            p->tier_of[m * makes + k] =
-                tier_for(p, sp_outlay_at(search, (uint32_t)m, search->candidates->makes[k].flow));
+        for (size_t k = 0; k < variants; k++)
+            p->tier_of[m * variants + k] =
+                tier_for(p, sp_outlay_at(search, (uint32_t)m, search->candidates->variants[k].flow));
     for (size_t m = 0; m < mounts; m++)
         p->ports[m] = sp_mount_room(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
     return true;
@@ -135,11 +135,11 @@ static bool set_texels(sp_problem *p, sp_error *error)
 static bool add_own(sp_problem *p, sp_error *error)
 {
     for (size_t i = 0; i <= p->front->by_water.count; i++) {
-        const sp_draft *draft = sp_front_draft(p->front, i);
-        for (size_t n = 0; n < draft->count; n++) {
-            const sp_placed *placed = &draft->items[n];
+        const sp_partial *partial = sp_front_partial(p->front, i);
+        for (size_t n = 0; n < partial->count; n++) {
+            const sp_placed *placed = &partial->items[n];
             uint32_t tier = tier_for(p, sp_placed_outlay(p->search, placed));
-            if (!sp_pose_prices_found(p->prices, placed, tier, &p->nozzles, error))
+            if (!sp_pose_pricing_found(p->pricing, placed, tier, &p->nozzles, error))
                 return false;
         }
     }
@@ -151,11 +151,11 @@ size_t sp_problem_poses(const sp_problem *p)
     const sp_search *search = p->search;
     size_t count = 0;
     for (size_t i = 0; i < search->sites->count; i++)
-        for (size_t k = 0; k < search->candidates->make_count; k++) {
+        for (size_t k = 0; k < search->candidates->variant_count; k++) {
             uint32_t mount = search->sites->items[i].mount;
-            const sp_make *make = &search->candidates->makes[k];
+            const sp_variant *variant = &search->candidates->variants[k];
             if (!search->port_taken[mount] && sp_search_knows(search, (uint32_t)i, k))
-                count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
+                count += sp_candidates_axes(search->candidates, mount, k)->count * variant->roll_count;
         }
     return count;
 }
@@ -177,8 +177,8 @@ static void add_sums(sp_problem *p, uint32_t tier)
 static void mark_tiers(const sp_problem *p, size_t port, bool *marked)
 {
     const sp_candidates *candidates = p->search->candidates;
-    for (size_t i = 0; i < candidates->mount_count * candidates->make_count; i++)
-        if (p->ports[i / candidates->make_count] == port && candidates->axes[i].count)
+    for (size_t i = 0; i < candidates->mount_count * candidates->variant_count; i++)
+        if (p->ports[i / candidates->variant_count] == port && candidates->axes[i].count)
             marked[p->tier_of[i]] = true;
     for (size_t i = 0; i < p->nozzles.count; i++)
         if (p->nozzles.port[i] == port)
@@ -218,13 +218,13 @@ static bool prepare(sp_problem *p, sp_error *error)
 {
     if (!set_tiers(p, error) || !set_texels(p, error))
         return false;
-    p->prices = sp_pose_prices_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
-    if (!p->prices)
+    p->pricing = sp_pose_pricing_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
+    if (!p->pricing)
         return false;
-    p->pricer = sp_pose_pricer(p->prices);
+    p->pricer = sp_pose_pricer(p->pricing);
     return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
-           sp_pose_line(p->prices, &p->order, &p->line, error);
+           sp_pose_list(p->pricing, &p->order, &p->list, error);
 }
 
 bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,
@@ -242,7 +242,7 @@ void sp_problem_free(sp_problem *p)
 {
     sp_pose_order_free(&p->order);
     sp_rows_free(&p->nozzles);
-    sp_pose_prices_destroy(p->prices);
+    sp_pose_pricing_destroy(p->pricing);
     free(p->area);
     free(p->need);
     free(p->film_need);

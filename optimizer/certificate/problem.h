@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_PROBLEM_H
 #define OPTIMIZER_PROBLEM_H
 
-#include "certificate/pose_prices.h"
+#include "certificate/pose_pricing.h"
 #include "certificate/water_units.h"
 #include "search/front.h"
 
@@ -15,17 +15,17 @@ typedef struct {
     float *area, *need; /* [patches] */
     float *film_need;   /* [patches], NULL where film is not asked for */
     uint32_t *weight;   /* [tiers] */
-    uint32_t *tier_of;  /* [mounts x makes] */
+    uint32_t *tier_of;  /* [mounts x variants] */
     size_t *ports;      /* [mounts] */
     bool *sums;         /* [cover.water + 1], as the cover's; NULL where no mount costs anything */
     double *costs;      /* [cost_count], m³/s: of mounts, each once */
     size_t cost_count;
-    double *outlays; /* [costs x makes], then one for each nozzle of the front */
+    double *outlays; /* [costs x variants], then one for each nozzle of the front */
     size_t own;      /* nozzles of the front */
-    sp_pose_prices *prices;
+    sp_pose_pricing *pricing;
     sp_rows nozzles; /* of the front */
     sp_pose_order order;
-    sp_line line;
+    sp_candidate_list list;
     sp_pricer pricer;
 } sp_problem;
 

@@ -24,67 +24,67 @@ double sp_least_flow(const sp_search *search, const sp_placed *placed)
     return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
 }
 
-void sp_turn_down(const sp_search *search, sp_draft *draft, double water)
+void sp_turn_down(const sp_search *search, sp_partial *partial, double water)
 {
     double total = search->kept_flow, spare = 0;
-    for (size_t i = 0; i < draft->count; i++) {
-        total += draft->items[i].flow;
-        spare += draft->items[i].flow - sp_least_flow(search, &draft->items[i]);
+    for (size_t i = 0; i < partial->count; i++) {
+        total += partial->items[i].flow;
+        spare += partial->items[i].flow - sp_least_flow(search, &partial->items[i]);
     }
     if (total <= water || spare <= 0)
         return;
     double share = fmin(1, (total - water) / spare * (1 + 1e-12));
-    for (size_t i = 0; i < draft->count; i++) {
-        sp_placed *placed = &draft->items[i];
+    for (size_t i = 0; i < partial->count; i++) {
+        sp_placed *placed = &partial->items[i];
         double low = sp_least_flow(search, placed);
         if (low < placed->flow)
             placed->nozzle.flow = placed->flow = placed->flow - share * (placed->flow - low);
     }
 }
 
-bool sp_draft_look(sp_sights *sights, sp_draft *draft, sp_error *error)
+bool sp_partial_look(sp_sights *sights, sp_partial *partial, sp_error *error)
 {
-    for (size_t i = 0; i < draft->count; i++)
-        if (!sp_sights_field(sights, &draft->items[i], NULL, draft->items[i].field, error))
+    for (size_t i = 0; i < partial->count; i++)
+        if (!sp_sights_field(sights, &partial->items[i], NULL, partial->items[i].field, error))
             return false;
-    sp_draft_refresh(sights->search, draft);
+    sp_partial_refresh(sights->search, partial);
     return true;
 }
 
-/* Takes over a share of the way from each freedom's start to its values, and looks again. */
-static bool go(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS], double share,
-               sp_draft *draft)
+/* Takes over a share of the way from each nozzle's start to its values, and looks again. */
+static bool go(const sp_annealing *annealing, const sp_pose_parameters *parameters, double (*values)[SP_UNKNOWNS],
+               double share, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
-    for (size_t i = 0; i < draft->count; i++) {
+    for (size_t i = 0; i < partial->count; i++) {
         double part[SP_UNKNOWNS];
-        for (size_t k = 0; k < freedoms[i].count; k++)
-            part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
-        sp_placed_move(search, &draft->items[i], &freedoms[i], part);
+        for (size_t k = 0; k < parameters[i].count; k++)
+            part[k] = parameters[i].value[k] + share * (values[i][k] - parameters[i].value[k]);
+        sp_placed_move(search, &partial->items[i], &parameters[i], part);
     }
-    sp_turn_down(search, draft, annealing->water);
-    return sp_draft_look(annealing->sights, draft, annealing->error);
+    sp_turn_down(search, partial, annealing->water);
+    return sp_partial_look(annealing->sights, partial, annealing->error);
 }
 
 /* Goes the whole way; where `careful`, half or a quarter of it if that is what is worth more than before, or stays. */
-static bool line_search(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS],
-                        bool careful, sp_draft *draft)
+static bool line_search(const sp_annealing *annealing, const sp_pose_parameters *parameters,
+                        double (*values)[SP_UNKNOWNS], bool careful, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
     if (!careful)
-        return go(annealing, freedoms, values, 1, draft);
+        return go(annealing, parameters, values, 1, partial);
     for (double share = 1; share >= SHARE_LEAST; share /= 2) {
-        sp_draft trial;
-        if (!sp_draft_copy(search, draft, &trial, annealing->error))
+        sp_partial trial;
+        if (!sp_partial_copy(search, partial, &trial, annealing->error))
             return false;
-        if (!go(annealing, freedoms, values, share, &trial)) {
-            sp_draft_free(&trial);
+        if (!go(annealing, parameters, values, share, &trial)) {
+            sp_partial_free(&trial);
             return false;
         }
-        bool better = trial.value > draft->value + SP_TIE * search->all;
-        sp_draft_free(better ? draft : &trial);
+        bool better = trial.value > partial->value + SP_TIE * search->all;
+        sp_partial_free(better ? partial : &trial);
         if (better) {
-            *draft = trial;
+            *partial = trial;
             return true;
         }
     }
@@ -94,65 +94,65 @@ static bool line_search(const sp_annealing *annealing, const sp_freedom *freedom
 /* The solver takes its slopes from differences, so that its answers hold to 1e-8 or so of the range, and what comes of
  * them would be another layout at another scale. They are brought to the nearest mark, which is finer than the
  * compass's least step. */
-static void mark(const sp_freedom *freedom, double values[SP_UNKNOWNS])
+static void mark(const sp_pose_parameters *parameters, double values[SP_UNKNOWNS])
 {
-    for (size_t k = 0; k < freedom->count; k++) {
-        double half = 0.5 * (freedom->high[k] - freedom->low[k]), middle = freedom->low[k] + half;
+    for (size_t k = 0; k < parameters->count; k++) {
+        double half = 0.5 * (parameters->high[k] - parameters->low[k]), middle = parameters->low[k] + half;
         values[k] = middle + half * (nearbyint((values[k] - middle) / half * MARKS) / MARKS);
     }
 }
 
 /* One outer step: solve with visibility frozen, apply, look again. */
-static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
+static bool step(const sp_annealing *annealing, size_t width, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
-    sp_freedom *freedoms = malloc(draft->count * sizeof *freedoms);
-    const sp_sight **views = malloc(draft->count * sizeof *views);
-    double(*values)[SP_UNKNOWNS] = malloc(draft->count * sizeof *values);
-    bool done = (freedoms && values && views) || sp_fail_memory(annealing->error);
-    for (size_t i = 0; done && i < draft->count; i++) {
-        freedoms[i] = sp_freedom_create(search, &draft->items[i]);
-        for (size_t k = 0; k < freedoms[i].count; k++)
-            values[i][k] = freedoms[i].value[k];
-        views[i] = sp_sights_look(annealing->sights, &draft->items[i], annealing->error);
+    sp_pose_parameters *parameters = malloc(partial->count * sizeof *parameters);
+    const sp_sight **views = malloc(partial->count * sizeof *views);
+    double(*values)[SP_UNKNOWNS] = malloc(partial->count * sizeof *values);
+    bool done = (parameters && values && views) || sp_fail_memory(annealing->error);
+    for (size_t i = 0; done && i < partial->count; i++) {
+        parameters[i] = sp_pose_parameters_create(search, &partial->items[i]);
+        for (size_t k = 0; k < parameters[i].count; k++)
+            values[i][k] = parameters[i].value[k];
+        views[i] = sp_sights_look(annealing->sights, &partial->items[i], annealing->error);
         done = views[i] != NULL;
     }
-    done = done &&
-           sp_soft_solve(search, draft, freedoms, views, widths[width], annealing->water, values, annealing->error);
-    for (size_t i = 0; done && i < draft->count; i++)
-        mark(&freedoms[i], values[i]);
-    done = done && line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);
-    free(freedoms);
+    done = done && sp_smooth_objective_minimise(search, partial, parameters, views, widths[width], annealing->water,
+                                                values, annealing->error);
+    for (size_t i = 0; done && i < partial->count; i++)
+        mark(&parameters[i], values[i]);
+    done = done && line_search(annealing, parameters, values, width >= SP_CAREFUL, partial);
+    free(parameters);
     free(views);
     free(values);
     return done;
 }
 
 /* Takes the copy over where it covers more with no more water. */
-static void keep_better(const sp_search *search, sp_draft *draft, sp_draft *copy, double water)
+static void keep_better(const sp_search *search, sp_partial *partial, sp_partial *copy, double water)
 {
-    bool better = sp_covers_more(search, copy, draft) && copy->flow <= water * (1 + SP_ROUNDING);
-    sp_draft_free(better ? draft : copy);
+    bool better = sp_covers_more(search, copy, partial) && copy->flow <= water * (1 + SP_ROUNDING);
+    sp_partial_free(better ? partial : copy);
     if (better)
-        *draft = *copy;
+        *partial = *copy;
 }
 
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_watch *watch, sp_draft *draft,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline, sp_partial *partial,
                sp_error *error)
 {
     sp_annealing annealing = {sights, water, error};
-    sp_draft moving;
-    if (!draft->count)
+    sp_partial moving;
+    if (!partial->count)
         return true;
-    if (!sp_sights_reserve(sights, draft->count, error) || !sp_draft_copy(sights->search, draft, &moving, error))
+    if (!sp_sights_reserve(sights, partial->count, error) || !sp_partial_copy(sights->search, partial, &moving, error))
         return false;
     bool done = true;
-    for (size_t w = start; done && w < end && sp_watch_goes_on(watch, "refine", (double)w / SP_WIDTHS); w++) {
-        sp_draft copy;
-        done = step(&annealing, w, &moving) && sp_draft_copy(sights->search, &moving, &copy, error);
+    for (size_t w = start; done && w < end && sp_deadline_goes_on(deadline, "refine", (double)w / SP_WIDTHS); w++) {
+        sp_partial copy;
+        done = step(&annealing, w, &moving) && sp_partial_copy(sights->search, &moving, &copy, error);
         if (done)
-            keep_better(sights->search, draft, &copy, water);
+            keep_better(sights->search, partial, &copy, water);
     }
-    sp_draft_free(&moving);
+    sp_partial_free(&moving);
     return done;
 }

@@ -1,24 +1,24 @@
-/* Annealing a draft's poses with Ceres: ever sharper, with visibility frozen for each step and traced again. */
+/* Annealing a layout's poses with Ceres: ever sharper, with visibility frozen for each step and traced again. */
 #ifndef OPTIMIZER_ANNEAL_H
 #define OPTIMIZER_ANNEAL_H
 
-#include "refine/soft.h"
+#include "refine/smooth_objective.h"
 
-/* The widths of an annealing, from the softest. From SP_CAREFUL on a step must improve what it starts from. */
+/* The widths of an annealing, from the smoothest. From SP_CAREFUL on a step must improve what it starts from. */
 #define SP_WIDTHS 7
 #define SP_CAREFUL 3
 
-/* Anneals from width `start` to before width `end` within `water` (m³/s), and leaves the draft at the best of its
+/* Anneals from width `start` to before width `end` within `water` (m³/s), and leaves the layout at the best of its
  * steps by what is covered. */
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_watch *watch, sp_draft *draft,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline, sp_partial *partial,
                sp_error *error);
 
 /* The flow that a nozzle may be turned down to; its own where that is fixed. */
 double sp_least_flow(const sp_search *search, const sp_placed *placed);
 /* Turns adjustable nozzles down by the same share of what they have above their least, to a total of `water` (m³/s) if
  * that can be. The fields stay as they are. */
-void sp_turn_down(const sp_search *search, sp_draft *draft, double water);
+void sp_turn_down(const sp_search *search, sp_partial *partial, double water);
 /* The fields anew, from where the nozzles are, and what follows from them. */
-bool sp_draft_look(sp_sights *sights, sp_draft *draft, sp_error *error);
+bool sp_partial_look(sp_sights *sights, sp_partial *partial, sp_error *error);
 
 #endif

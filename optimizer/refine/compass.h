@@ -4,10 +4,10 @@
 
 #include "refine/sight.h"
 
-/* Raises what the draft covers on the coarse patches, every place traced anew, within `water` (m³/s). It sees what
+/* Raises what the layout covers on the coarse patches, every place traced anew, within `water` (m³/s). It sees what
  * frozen visibility hides from Ceres: a move that lights up what lay in shadow. Steps go from `first` to above `least`,
  * shares of half an unknown's range. */
-bool sp_compass(sp_sights *sights, double first, double least, double water, sp_watch *watch, sp_draft *draft,
+bool sp_compass(sp_sights *sights, double first, double least, double water, sp_deadline *deadline, sp_partial *partial,
                 sp_error *error);
 
 #endif

@@ -5,24 +5,24 @@
 
 #include <stdlib.h>
 
-#define RUNGS 12          /* amounts of water for which other drafts are looked for in a hurry */
+#define RUNGS 12          /* amounts of water for which other layouts are looked for in a hurry */
 #define RUNG 0.95         /* of each, the next */
-#define RUNG_FIRST 1.4    /* of what the first draft takes, which does not reach the target */
-#define RUNGS_TRIED 4     /* of the drafts found for these, that are polished */
+#define RUNG_FIRST 1.4    /* of what the first layout takes, which does not reach the target */
+#define RUNGS_TRIED 4     /* of the layouts found for these, that are refined */
 #define PROMISING 0.012   /* of the target: what may be missing for that */
-#define CLOSE 0.004       /* the same for the last polish */
-#define CLOSEST 2         /* drafts so close that have it at a time */
+#define CLOSE 0.004       /* the same for the last local search */
+#define CLOSEST 2         /* layouts so close that have it at a time */
 #define MISSING_COST 15.0 /* share of the water that makes up for what is missing, per share of the target */
 #define WALKS 6           /* from the closest */
-#define SAVED_LEAST 0.005 /* of the best draft's water, by what is to be better */
-#define LEEWAY 0.03       /* more water that a draft close to the target may take */
+#define SAVED_LEAST 0.005 /* of the best layout's water, by what is to be better */
+#define LEEWAY 0.03       /* more water that a layout close to the target may take */
 
 static bool aims_at_target(const sp_front *front)
 {
     return front->objective != SP_OBJECTIVE_MAX_COVERAGE;
 }
 
-/* Trials of other drafts for ever less water, from a little more than the best draft takes where that does not reach
+/* Trials of other layouts for ever less water, from a little more than the best layout takes where that does not reach
  * the target; where as much as possible is to be covered, for what it takes alone. */
 static bool ask_rungs(sp_refining *refining, sp_trials *trials)
 {
@@ -37,7 +37,7 @@ static bool ask_rungs(sp_refining *refining, sp_trials *trials)
     return true;
 }
 
-/* The water that a draft may take once it is refined to reach the target. */
+/* The water that a layout may take once it is refined to reach the target. */
 static double outlay_at_target(const sp_front *front, double outlay, double area)
 {
     return outlay * (1 + MISSING_COST * fmax(0, 1 - area / front->target));
@@ -52,7 +52,7 @@ static bool keep_promising(const sp_refining *refining, sp_trials *trials)
     bool *kept = calloc(count + 1, sizeof *kept);
     bool done = (ranked && kept) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < count; i++) {
-        const sp_draft *other = &trials->items[i].other;
+        const sp_partial *other = &trials->items[i].other;
         bool promising = other->covered >= front->target * (1 - PROMISING);
         ranked[i] = (sp_ranked){promising ? outlay_at_target(front, other->outlay, other->covered) : INFINITY, i};
     }
@@ -67,7 +67,7 @@ static bool keep_promising(const sp_refining *refining, sp_trials *trials)
     return done;
 }
 
-/* The drafts of the front that are close to the target or reach it, and that which covers most, by the water they may
+/* The layouts of the front that are close to the target or reach it, and that which covers most, by the water they may
  * take there; malloc'd, the caller frees. NULL when memory runs out. */
 static sp_ranked *rank_close(const sp_front *front, size_t *count)
 {
@@ -85,7 +85,7 @@ static sp_ranked *rank_close(const sp_front *front, size_t *count)
     return ranked;
 }
 
-/* Walks from the closest drafts, by turns. */
+/* Walks from the closest layouts, by turns. */
 static bool walk_closest(sp_refining *refining)
 {
     sp_trials trials = {0};
@@ -95,7 +95,7 @@ static bool walk_closest(sp_refining *refining)
     size_t turns = count < CLOSEST ? count : CLOSEST;
     for (size_t k = 0; done && turns && k < WALKS; k++) {
         const sp_front_entry *entry = &refining->front->by_water.entries[ranked[k % turns].at];
-        done = sp_try_also(refining, &trials, &entry->draft, entry->point.outlay * (1 + LEEWAY), SP_TRIAL_WALK);
+        done = sp_try_also(refining, &trials, &entry->partial, entry->point.outlay * (1 + LEEWAY), SP_TRIAL_WALK);
     }
     free(ranked);
     done = done && sp_trials_carry_out(refining, &trials, NULL);
@@ -103,7 +103,7 @@ static bool walk_closest(sp_refining *refining)
     return done;
 }
 
-/* Trials of the closest drafts for the water that they may take at the target, if that is less than the best's. */
+/* Trials of the closest layouts for the water that they may take at the target, if that is less than the best's. */
 static bool try_closest(sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;
@@ -115,24 +115,24 @@ static bool try_closest(sp_refining *refining, sp_trials *trials)
     for (size_t k = count < CLOSEST ? count : CLOSEST; done && k-- > 0;) {
         const sp_front_entry *entry = &front->by_water.entries[ranked[k].at];
         double outlay = aims_at_target(front) ? ranked[k].merit : entry->point.outlay;
-        done = sp_try_also(refining, trials, &entry->draft, fmin(outlay, most), SP_TRIAL_POLISH);
+        done = sp_try_also(refining, trials, &entry->partial, fmin(outlay, most), SP_TRIAL_BY_TURNS);
     }
     free(ranked);
     return done;
 }
 
-/* The closest drafts on the final patches. */
+/* The closest layouts on the final patches. */
 static bool sharpen_closest(sp_refining *refining)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
-    bool done =
-        try_closest(refining, &trials) && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error);
+    bool done = try_closest(refining, &trials) &&
+                sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error);
     for (size_t i = 0; done && i < trials.count; i++) {
         sp_front_point point;
-        done = sp_front_measure(front, refining->search, &trials.items[i].draft, &point, refining->error);
+        done = sp_front_measure(front, refining->search, &trials.items[i].partial, &point, refining->error);
         if (done && aims_at_target(front) && point.area >= front->target)
-            done = sp_save_flow(refining, &trials.items[i].draft);
+            done = sp_save_flow(refining, &trials.items[i].partial);
     }
     sp_trials_free(&trials);
     return done;
@@ -143,7 +143,7 @@ bool sp_refine_hurried(sp_refining *refining)
 {
     const sp_front *front = refining->front;
     bool gained = true;
-    for (int pass = 0; gained && sp_watch_goes_on(refining->watch, "refine", 0); pass++) {
+    for (int pass = 0; gained && sp_deadline_goes_on(refining->deadline, "refine", 0); pass++) {
         sp_front_point before = front->measured;
         sp_trials trials = {0};
         bool done = ask_rungs(refining, &trials) && sp_find_others(refining, &trials) &&

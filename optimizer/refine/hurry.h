@@ -4,7 +4,7 @@
 
 #include "refine/trials.h"
 
-/* Other drafts for ever less water, as long as that gains; the closest to the target are polished sharply. */
+/* Other layouts for ever less water, as long as that gains; the closest to the target are refined sharply. */
 bool sp_refine_hurried(sp_refining *refining);
 
 #endif

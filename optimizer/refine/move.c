@@ -17,21 +17,22 @@ static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3
     return sp_site_allowed(search->coarse, options, site);
 }
 
-void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_freedom *freedom, const double *values)
+void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_pose_parameters *parameters,
+                    const double *values)
 {
     sp_site site = placed->site;
-    if (!freedom->count)
+    if (!parameters->count)
         return;
-    sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
+    sp_nozzle nozzle = sp_pose_parameters_nozzle(parameters, values);
     if (sp_distance(nozzle.position, placed->nozzle.position) > 0 &&
         moved_site(search, placed, nozzle.position, &site)) {
-        sp_nozzle there = sp_freedom_nozzle_at(freedom, values, &site);
+        sp_nozzle there = sp_pose_parameters_nozzle_at(parameters, values, &site);
         double turn = sp_dot(there.axis, placed->origin.axis);
         /* a curved surface may turn the axis more than refinement is allowed to */
-        if (turn < cos(freedom->axis_limit) - 1e-9)
+        if (turn < cos(parameters->axis_limit) - 1e-9)
             site = placed->site;
     }
-    placed->nozzle = sp_freedom_nozzle_at(freedom, values, &site);
+    placed->nozzle = sp_pose_parameters_nozzle_at(parameters, values, &site);
     placed->site = site;
     placed->flow = sp_nozzle_flow(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid);
 }

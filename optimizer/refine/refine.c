@@ -6,24 +6,24 @@
 
 #include <stdlib.h>
 
-#define SAVINGS 3    /* amounts of water below the best draft's for which others are looked for */
+#define SAVINGS 3    /* amounts of water below the best layout's for which others are looked for */
 #define SAVING 0.015 /* each by so much less */
-#define BETWEEN 0.05 /* less water than a draft of the front, for another */
+#define BETWEEN 0.05 /* less water than a layout of the front, for another */
 #define APART 0.02   /* share by which waters must differ for that */
-#define NEAR 0.006   /* of the target: what may be missing for a draft to be near it */
-#define NEAR_MOST 5  /* drafts near it that are tried */
-#define LEEWAY 0.03  /* more water that such a draft may take */
+#define NEAR 0.006   /* of the target: what may be missing for a layout to be near it */
+#define NEAR_MOST 5  /* layouts near it that are tried */
+#define LEEWAY 0.03  /* more water that such a layout may take */
 
-#define SHARP_ROUNDS 3    /* of the last polish */
+#define SHARP_ROUNDS 3    /* of the last local search */
 #define SHARP_SAVING 2e-3 /* less water, for another round */
 
-/* Every draft of the front once more. */
+/* Every layout of the front once more. */
 static bool try_front(sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->by_water.count; i++)
-        if (sp_front_counts(front, i) && !sp_try_also(refining, trials, &front->by_water.entries[i].draft,
-                                                      front->by_water.entries[i].point.outlay, SP_TRIAL_POLISH))
+        if (sp_front_counts(front, i) && !sp_try_also(refining, trials, &front->by_water.entries[i].partial,
+                                                      front->by_water.entries[i].point.outlay, SP_TRIAL_BY_TURNS))
             return false;
     return true;
 }
@@ -43,15 +43,15 @@ static bool try_fewest(sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->by_number.count; i++) {
         const sp_front_entry *entry = &front->by_number.entries[i];
-        if (entry->draft.count && entry->draft.count < front->best.count && !on_water_front(front, &entry->point) &&
-            !sp_try_also(refining, trials, &entry->draft, entry->point.outlay, SP_TRIAL_POLISH))
+        if (entry->partial.count && entry->partial.count < front->best.count && !on_water_front(front, &entry->point) &&
+            !sp_try_also(refining, trials, &entry->partial, entry->point.outlay, SP_TRIAL_BY_TURNS))
             return false;
     }
     return true;
 }
 
-/* Trials of other drafts for the water of every draft of the front, `between` also for a little less, where the front
- * has none, and for that of the scene's own layout, with which the proposal will be compared. The drafts are still to
+/* Trials of other layouts for the water of every layout of the front, `between` also for a little less, where the front
+ * has none, and for that of the scene's own layout, with which the proposal will be compared. The layouts are still to
  * be found. */
 static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
 {
@@ -61,7 +61,7 @@ static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
         double outlay = front->by_water.entries[i].point.outlay, less = outlay * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
-        if (between && front->by_water.entries[i].draft.count > 1 &&
+        if (between && front->by_water.entries[i].partial.count > 1 &&
             less > front->by_water.entries[i - 1].point.outlay * (1 + APART) && !sp_ask_other(refining, trials, less))
             return false;
         if (!sp_ask_other(refining, trials, outlay))
@@ -70,7 +70,7 @@ static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
     return own <= 0 || sp_ask_other(refining, trials, own);
 }
 
-/* The same for a little less water than the best draft takes. */
+/* The same for a little less water than the best layout takes. */
 static bool ask_savings(sp_refining *refining, sp_trials *trials)
 {
     for (int i = 1; i <= SAVINGS; i++)
@@ -79,7 +79,7 @@ static bool ask_savings(sp_refining *refining, sp_trials *trials)
     return true;
 }
 
-/* Drops the trials whose other draft covers no more than what they hold. */
+/* Drops the trials whose other layout covers no more than what they hold. */
 static bool drop_others(sp_refining *refining, sp_trials *trials)
 {
     bool *kept = calloc(trials->count + 1, sizeof *kept);
@@ -87,15 +87,15 @@ static bool drop_others(sp_refining *refining, sp_trials *trials)
         return sp_fail_memory(refining->error);
     for (size_t i = 0; i < trials->count; i++) {
         const sp_trial *trial = &trials->items[i];
-        kept[i] = trial->other.covered > trial->draft.covered * (1 + SP_GAIN_LEAST);
+        kept[i] = trial->other.covered > trial->partial.covered * (1 + SP_GAIN_LEAST);
     }
     sp_trials_keep(trials, kept);
     free(kept);
     return true;
 }
 
-/* Every draft of the front, and others in their places and between. */
-static bool polish_front(sp_refining *refining)
+/* Every layout of the front, and others in their places and between. */
+static bool search_front_locally(sp_refining *refining)
 {
     sp_trials trials = {0};
     bool done = ask_others(refining, &trials, true) && sp_find_others(refining, &trials) &&
@@ -105,7 +105,7 @@ static bool polish_front(sp_refining *refining)
     return done;
 }
 
-/* What the drafts of the front have in common, they give to one another. */
+/* What the layouts of the front have in common, they give to one another. */
 static bool recombine_front(sp_refining *refining)
 {
     sp_trials trials = {0};
@@ -116,27 +116,27 @@ static bool recombine_front(sp_refining *refining)
     return done;
 }
 
-/* The best once more, and drafts that all but reach the target with less water, on the final patches; those may take a
+/* The best once more, and layouts that all but reach the target with less water, on the final patches; those may take a
  * little more, if it is less than the best's. */
 static bool sharpen(sp_refining *refining, bool saves, bool near)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
-    bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_POLISH);
+    bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_BY_TURNS);
     for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];
         double budget = fmin(entry->point.outlay * (1 + LEEWAY), front->best.outlay);
         if (entry->point.outlay < front->best.outlay * (1 - SP_GAIN_LEAST) && entry->point.area < front->target &&
             entry->point.area >= front->target * (1 - NEAR))
-            done = sp_try_also(refining, &trials, &entry->draft, budget, SP_TRIAL_POLISH);
+            done = sp_try_also(refining, &trials, &entry->partial, budget, SP_TRIAL_BY_TURNS);
     }
     sp_front_point *points = NULL;
-    done = done && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error) &&
+    done = done && sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error) &&
            (points = sp_trials_measure_ahead(refining, &trials, false));
     for (size_t i = 0; done && i < trials.count; i++) {
-        done = sp_front_note(front, refining->search, &trials.items[i].draft, &points[i], refining->error);
+        done = sp_front_note(front, refining->search, &trials.items[i].partial, &points[i], refining->error);
         if (done && saves && points[i].area >= front->target)
-            done = sp_save_flow(refining, &trials.items[i].draft);
+            done = sp_save_flow(refining, &trials.items[i].partial);
     }
     free(points);
     sp_trials_free(&trials);
@@ -147,7 +147,7 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
 static bool sharpen_often(sp_refining *refining, bool saves)
 {
     double before = INFINITY;
-    const sp_draft *best = &refining->front->best;
+    const sp_partial *best = &refining->front->best;
     for (int round = 0; round < SHARP_ROUNDS && best->outlay < before * (1 - SHARP_SAVING); round++) {
         before = best->outlay;
         if (!sharpen(refining, saves, saves && round == 0))
@@ -159,7 +159,7 @@ static bool sharpen_often(sp_refining *refining, bool saves)
 static bool refine_all(sp_refining *refining)
 {
     const sp_front *front = refining->front;
-    if (!polish_front(refining))
+    if (!search_front_locally(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     return recombine_front(refining) && (!saves || sp_save_water(refining)) && recombine_front(refining) &&
@@ -173,25 +173,27 @@ bool sp_refine_asked(const sp_refine *refine)
 
 typedef bool (*refine_step)(sp_refining *refining);
 
-static bool run(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, refine_step step,
+static bool run(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front, refine_step step,
                 sp_error *error)
 {
-    if (!sp_refine_asked(&search->options->refine) || !sp_watch_goes_on(watch, "refine", 0))
+    if (!sp_refine_asked(&search->options->refine) || !sp_deadline_goes_on(deadline, "refine", 0))
         return true;
-    sp_refining refining = {.search = search, .pool = pool, .watch = watch, .front = front, .error = error};
-    if (!sp_polishing_create(search, pool, front->fine, watch, &refining.polishing, error))
+    sp_refining refining = {.search = search, .pool = pool, .deadline = deadline, .front = front, .error = error};
+    if (!sp_local_search_create(search, pool, front->fine, deadline, &refining.local_search, error))
         return false;
     bool done = step(&refining);
-    sp_polishing_free(&refining.polishing);
+    sp_local_search_free(&refining.local_search);
     return done;
 }
 
-bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                     sp_error *error)
 {
-    return run(search, pool, watch, front, sp_refine_hurried, error);
+    return run(search, pool, deadline, front, sp_refine_hurried, error);
 }
 
-bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                    sp_error *error)
 {
-    return run(search, pool, watch, front, refine_all, error);
+    return run(search, pool, deadline, front, refine_all, error);
 }

@@ -4,10 +4,10 @@
 
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
-#define BATCH 8           /* walks from one draft at a time; fixed, so that the answer does not depend on the threads */
-#define BATCHES 2         /* before less water is given up */
+#define BATCH 8   /* walks from one layout at a time; fixed, so that the answer does not depend on the threads */
+#define BATCHES 2 /* before less water is given up */
 
-bool sp_save_flow(sp_refining *refining, const sp_draft *full)
+bool sp_save_flow(sp_refining *refining, const sp_partial *full)
 {
     const sp_search *search = refining->search;
     sp_front *front = refining->front;
@@ -16,20 +16,20 @@ bool sp_save_flow(sp_refining *refining, const sp_draft *full)
         low += sp_least_flow(search, &full->items[i]);
     if (!(low < high * (1 - 1e-6)))
         return true;
-    sp_sights *sights = &refining->polishing.sights[0]; /* liquid flies alike at every flow */
+    sp_sights *sights = &refining->local_search.sights[0]; /* liquid flies alike at every flow */
     bool done = true;
     sp_sights_forget(sights);
-    for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
-        sp_draft draft;
+    for (int trial = 0; done && trial < FLOW_TRIALS && sp_deadline_goes_on(refining->deadline, "refine", 1); trial++) {
+        sp_partial partial;
         sp_front_point point;
         double middle = 0.5 * (low + high);
-        done = sp_draft_copy(search, full, &draft, refining->error);
+        done = sp_partial_copy(search, full, &partial, refining->error);
         if (!done)
             break;
-        sp_turn_down(search, &draft, middle);
-        done = sp_draft_look(sights, &draft, refining->error) &&
-               sp_front_measure(front, search, &draft, &point, refining->error);
-        sp_draft_free(&draft);
+        sp_turn_down(search, &partial, middle);
+        done = sp_partial_look(sights, &partial, refining->error) &&
+               sp_front_measure(front, search, &partial, &point, refining->error);
+        sp_partial_free(&partial);
         if (done && point.area >= front->target)
             high = middle;
         else
@@ -38,43 +38,43 @@ bool sp_save_flow(sp_refining *refining, const sp_draft *full)
     return done;
 }
 
-/* Anneals a draft and walks from it once, on two cores, then polishes what more walks from it find, until the front has
- * one that takes less water than `before` and reaches the target, or it is given up. */
-static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
+/* Anneals a layout and walks from it once, on two cores, then refines what more walks from it find, until the front
+ * has one that takes less water than `before` and reaches the target, or it is given up. */
+static bool insist(sp_refining *refining, sp_partial *partial, double budget, const sp_front_point *before)
 {
     sp_front *front = refining->front;
     bool done = true;
     for (int batch = 0; done && batch <= BATCHES && sp_point_same(before, &front->measured); batch++) {
-        double missing = front->target - front->bias - draft->covered;
-        if (missing > MISSING_MOST * front->target || !sp_watch_goes_on(refining->watch, "refine", 0))
+        double missing = front->target - front->bias - partial->covered;
+        if (missing > MISSING_MOST * front->target || !sp_deadline_goes_on(refining->deadline, "refine", 0))
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 2); i++)
-            done = sp_try_also(refining, &trials, draft, budget, batch || i ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
-        done = done && sp_trials_carry_out(refining, &trials, draft);
+            done = sp_try_also(refining, &trials, partial, budget, batch || i ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
+        done = done && sp_trials_carry_out(refining, &trials, partial);
         sp_trials_free(&trials);
     }
     return done;
 }
 
 /* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether
- * the best draft got better. */
+ * the best layout got better. */
 static bool save_share(sp_refining *refining, double share, bool *saved)
 {
     sp_front *front = refining->front;
     sp_front_point before = front->measured;
     double budget = front->best.outlay * (1 - share);
-    sp_draft reduced;
+    sp_partial reduced;
     bool found;
     *saved = false;
-    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
-                   &reduced, &found, refining->error))
+    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias,
+                   refining->deadline, &reduced, &found, refining->error))
         return false;
     if (!found)
         return true;
     bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
                 insist(refining, &reduced, budget, &before);
-    sp_draft_free(&reduced);
+    sp_partial_free(&reduced);
     *saved = done && !sp_point_same(&before, &front->measured);
     return done;
 }
@@ -84,7 +84,7 @@ bool sp_save_water(sp_refining *refining)
     static const double shares[] = {0.06, 0.03};
     for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
         bool saved = false;
-        if (!refining->front->best.count || !sp_watch_goes_on(refining->watch, "refine", 0))
+        if (!refining->front->best.count || !sp_deadline_goes_on(refining->deadline, "refine", 0))
             return true;
         if (!save_share(refining, shares[i], &saved))
             return false;

@@ -4,9 +4,9 @@
 
 #include "refine/trials.h"
 
-/* Turns a draft's adjustable nozzles down while it reaches the target, and measures what comes of it. */
-bool sp_save_flow(sp_refining *refining, const sp_draft *full);
-/* Gives the best draft ever less water, as long as exchange and refinement make up for that. */
+/* Turns a layout's adjustable nozzles down while it reaches the target, and measures what comes of it. */
+bool sp_save_flow(sp_refining *refining, const sp_partial *full);
+/* Gives the best layout ever less water, as long as exchange and refinement make up for that. */
 bool sp_save_water(sp_refining *refining);
 
 #endif

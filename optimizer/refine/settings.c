@@ -1,9 +1,9 @@
 #include "refine/settings.h"
 
-#include "refine/freedom.h"
+#include "refine/pose_parameters.h"
 #include "scoring/field.h"
 
-#define ROUNDS 3 /* of looking at the settings beside those of the best draft */
+#define ROUNDS 3 /* of looking at the settings beside those of the best layout */
 
 typedef enum { SETTING_DEPTH, SETTING_TILT, SETTING_ANGLE, SETTING_FLOW, SETTINGS } sp_setting;
 
@@ -149,69 +149,70 @@ static bool look(const sp_search *search, sp_placed *placed, sp_error *error)
            sp_field_nozzle(search, &placed->nozzle, NULL, placed->field, error);
 }
 
-/* A draft whose nozzles were set, into the front where it is within the water. */
-static bool measure(const sp_search *search, sp_front *front, sp_draft *draft, sp_error *error)
+/* A layout whose nozzles were set, into the front where it is within the water. */
+static bool measure(const sp_search *search, sp_front *front, sp_partial *partial, sp_error *error)
 {
-    sp_draft_refresh(search, draft);
-    return draft->flow > search->options->max_water * (1 + SP_ROUNDING) ||
-           sp_front_measure(front, search, draft, NULL, error);
+    sp_partial_refresh(search, partial);
+    return partial->flow > search->options->max_water * (1 + SP_ROUNDING) ||
+           sp_front_measure(front, search, partial, NULL, error);
 }
 
-static bool set_draft(const sp_search *search, const sp_draft *from, int way, sp_front *front, sp_error *error)
+static bool set_partial(const sp_search *search, const sp_partial *from, int way, sp_front *front, sp_error *error)
 {
-    sp_draft draft;
-    if (!sp_draft_copy(search, from, &draft, error))
+    sp_partial partial;
+    if (!sp_partial_copy(search, from, &partial, error))
         return false;
     bool done = true;
-    for (size_t i = 0; done && i < draft.count; i++) {
-        turn_all(search, &draft.items[i], way);
-        done = look(search, &draft.items[i], error);
+    for (size_t i = 0; done && i < partial.count; i++) {
+        turn_all(search, &partial.items[i], way);
+        done = look(search, &partial.items[i], error);
     }
-    done = done && measure(search, front, &draft, error);
-    sp_draft_free(&draft);
+    done = done && measure(search, front, &partial, error);
+    sp_partial_free(&partial);
     return done;
 }
 
-static bool has_flow_steps(const sp_draft *draft)
+static bool has_flow_steps(const sp_partial *partial)
 {
-    for (size_t i = 0; i < draft->count; i++)
-        if (draft->items[i].nozzle.type->flow_step.count > 0)
+    for (size_t i = 0; i < partial->count; i++)
+        if (partial->items[i].nozzle.type->flow_step.count > 0)
             return true;
     return false;
 }
 
 /* With flows nearest to what they were, all down, and all up. */
-static bool set_drafts(const sp_search *search, const sp_draft *draft, sp_front *front, sp_error *error)
+static bool set_partials(const sp_search *search, const sp_partial *partial, sp_front *front, sp_error *error)
 {
-    return set_draft(search, draft, 0, front, error) &&
-           (!has_flow_steps(draft) ||
-            (set_draft(search, draft, -1, front, error) && set_draft(search, draft, 1, front, error)));
+    return set_partial(search, partial, 0, front, error) &&
+           (!has_flow_steps(partial) ||
+            (set_partial(search, partial, -1, front, error) && set_partial(search, partial, 1, front, error)));
 }
 
-/* One dial of the best draft one step on; whether that is better the front decides. */
+/* One dial of the best layout one step on; whether that is better the front decides. */
 static bool try_beside(const sp_search *search, sp_front *front, size_t i, sp_setting setting, double steps,
                        sp_error *error)
 {
-    sp_draft draft;
+    sp_partial partial;
     if (!(dial_of(search, &front->best.items[i], setting).step.count > 0))
         return true;
-    if (!sp_draft_copy(search, &front->best, &draft, error))
+    if (!sp_partial_copy(search, &front->best, &partial, error))
         return false;
     bool done = true;
-    if (turn(search, &draft.items[i], setting, steps))
-        done = look(search, &draft.items[i], error) && measure(search, front, &draft, error);
-    sp_draft_free(&draft);
+    if (turn(search, &partial.items[i], setting, steps))
+        done = look(search, &partial.items[i], error) && measure(search, front, &partial, error);
+    sp_partial_free(&partial);
     return done;
 }
 
-static bool look_beside(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error)
+static bool look_beside(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     for (int round = 0; round < ROUNDS; round++) {
         sp_front_point before = front->measured;
         for (size_t i = 0; i < front->best.count; i++)
             for (sp_setting setting = 0; setting < SETTINGS; setting++)
                 for (int way = -1; way <= 1 && sp_type_is_uniform(front->best.items[i].nozzle.type); way += 2)
-                    if (sp_watch_goes_on(watch, "refine", 1) && !try_beside(search, front, i, setting, way, error))
+                    if (sp_deadline_goes_on(deadline, "refine", 1) &&
+                        !try_beside(search, front, i, setting, way, error))
                         return false;
         if (!sp_front_better(front, &front->measured, &before))
             return true;
@@ -229,17 +230,17 @@ static bool has_steps(const sp_place_options *options)
     return any;
 }
 
-bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     if (!has_steps(search->options))
         return true;
     sp_front before = *front;
     *front = (sp_front){.fine = before.fine, .objective = before.objective, .target = before.target};
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
-    bool done = set_drafts(search, &before.best, front, error);
+    bool done = set_partials(search, &before.best, front, error);
     for (int k = 0; k < 2; k++)
-        for (size_t i = 0; done && !watch->cancelled && i < lists[k]->count; i++)
-            done = set_drafts(search, &lists[k]->entries[i].draft, front, error);
+        for (size_t i = 0; done && !deadline->cancelled && i < lists[k]->count; i++)
+            done = set_partials(search, &lists[k]->entries[i].partial, front, error);
     sp_front_free(&before);
-    return done && look_beside(search, watch, front, error);
+    return done && look_beside(search, deadline, front, error);
 }

@@ -4,10 +4,9 @@
 
 #include "search/front.h"
 
-/* Brings every draft of the front (once cancelled the best alone) to settings, measures it anew and forgets what it
+/* Brings every layout of the front (once cancelled the best alone) to settings, measures it anew and forgets what it
  * was; front->best becomes the best of these, and then of the settings beside it, while there is time. Does nothing
- * where no mount and no type has steps.
- */
-bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error);
+ * where no mount and no type has steps. */
+bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error);
 
 #endif

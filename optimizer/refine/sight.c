@@ -36,7 +36,7 @@ void sp_sights_forget(sp_sights *sights)
         free(sights->items[i].seen);
         sights->items[i] = (sp_sight){0};
     }
-    /* what room an earlier draft needed must not tell what is remembered of the next */
+    /* what room an earlier layout needed must not tell what is remembered of the next */
     sights->capacity = sights->asked;
 }
 
@@ -155,7 +155,7 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
     return *transfer > 0;
 }
 
-void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, const sp_draft *draft,
+void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, const sp_partial *partial,
                     float *field)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
@@ -165,7 +165,7 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     sp_field_making making = sp_field_begin(search, &posed, 1, field);
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
-        if (draft && draft->wet[seen->patch] >= SP_ENOUGH && !search->runoffs)
+        if (partial && partial->wet[seen->patch] >= SP_ENOUGH && !search->runoffs)
             continue;
         sp_flight flight = {.direction = seen->direction};
         double transfer = seen->transfer, breadth = seen->breadth;
@@ -179,7 +179,8 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     sp_field_end(&making);
 }
 
-bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error)
+bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_partial *partial, float *field,
+                     sp_error *error)
 {
     if (!sp_type_is_uniform(placed->nozzle.type)) {
         sp_field_pose(sights->search, placed->pose, field);
@@ -187,6 +188,6 @@ bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft 
     }
     const sp_sight *sight = sp_sights_look(sights, placed, error);
     if (sight)
-        sp_sight_field(sights->search, sight, placed, draft, field);
+        sp_sight_field(sights->search, sight, placed, partial, field);
     return sight;
 }

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_SIGHT_H
 #define OPTIMIZER_SIGHT_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 /* An arrival that passes the criterion's speed and incidence; where film is asked for, any. */
 typedef struct {
@@ -52,10 +52,11 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
 /* Flies to a patch in sight, or its cell, from `position`, visibility as it was; false where no liquid arrives. */
 bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer);
-/* The nozzle's field from where it is, visibility as in the sight; looking for oneself. Where a draft is given, only
+/* The nozzle's field from where it is, visibility as in the sight; looking for oneself. Where a layout is given, only
  * on the patches that it leaves dry: what the nozzle adds to it is the same. */
-void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, const sp_draft *draft,
+void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, const sp_partial *partial,
                     float *field);
-bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error);
+bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_partial *partial, float *field,
+                     sp_error *error);
 
 #endif

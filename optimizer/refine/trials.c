@@ -1,16 +1,16 @@
 #include "refine/trials.h"
 
 #include "mesh/grow.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 
 #include <stdlib.h>
 
-#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
+#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank layouts wrongly */
 
 static void trial_free(sp_trial *trial)
 {
-    sp_draft_free(&trial->draft);
-    sp_draft_free(&trial->other);
+    sp_partial_free(&trial->partial);
+    sp_partial_free(&trial->other);
 }
 
 void sp_trials_keep(sp_trials *trials, const bool *kept)
@@ -32,24 +32,24 @@ void sp_trials_free(sp_trials *trials)
     *trials = (sp_trials){0};
 }
 
-bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_draft *draft, double budget, sp_trial_kind kind)
+bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget, sp_trial_kind kind)
 {
     if (!sp_grow(&trials->items, &trials->capacity, trials->count + 1, sizeof *trials->items))
         return sp_fail_memory(refining->error);
     sp_trial *trial = &trials->items[trials->count];
     *trial = (sp_trial){.kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->outlay_most)};
-    if (!sp_draft_copy(refining->search, draft, &trial->draft, refining->error))
+    if (!sp_partial_copy(refining->search, partial, &trial->partial, refining->error))
         return false;
     trials->count++;
     return true;
 }
 
-/* Whether the final patches may see the draft on the front: none of no more water covers clearly more on the search's.
+/* Whether the final patches may see the layout on the front: none of no more water covers clearly more on the search's.
  */
-static bool may_count(const sp_front *front, const sp_draft *draft)
+static bool may_count(const sp_front *front, const sp_partial *partial)
 {
-    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= draft->outlay; i++)
-        if (front->by_water.entries[i].draft.covered > draft->covered * (1 + MISJUDGED))
+    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= partial->outlay; i++)
+        if (front->by_water.entries[i].partial.covered > partial->covered * (1 + MISJUDGED))
             return false;
     return true;
 }
@@ -60,80 +60,81 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
     size_t i = 0;
     while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.outlay <= outlay * (1 + SP_ROUNDING))
         i++;
-    return sp_try_also(refining, trials, &front->by_water.entries[i].draft, outlay, SP_TRIAL_OTHER);
+    return sp_try_also(refining, trials, &front->by_water.entries[i].partial, outlay, SP_TRIAL_OTHER);
 }
 
-/* All nozzles of the front's drafts; NULL when memory runs out. */
+/* All nozzles of the front's layouts; NULL when memory runs out. */
 static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
 {
     size_t total = 0;
     for (size_t i = 0; i < front->by_water.count; i++)
-        total += front->by_water.entries[i].draft.count;
+        total += front->by_water.entries[i].partial.count;
     const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
     *count = 0;
     for (size_t i = 0; nozzles && i < front->by_water.count; i++)
-        for (size_t n = 0; n < front->by_water.entries[i].draft.count; n++)
-            nozzles[(*count)++] = &front->by_water.entries[i].draft.items[n];
+        for (size_t n = 0; n < front->by_water.entries[i].partial.count; n++)
+            nozzles[(*count)++] = &front->by_water.entries[i].partial.items[n];
     return nozzles;
 }
 
 bool sp_find_others(sp_refining *refining, sp_trials *trials)
 {
-    const sp_tuned *tuned = &refining->polishing.tuned;
+    const sp_tuned *tuned = &refining->local_search.tuned;
     size_t count = trials->count, nozzle_count;
     double *budgets = malloc((count + 1) * sizeof *budgets);
     sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
     const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
-    sp_table table = {0};
+    sp_coverage_matrix matrix = {0};
     bool done = (budgets && lineups && nozzles) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < count; i++)
         budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
-    done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
-           sp_guess(&table, budgets, count, refining->watch, lineups, refining->error);
+    done = done &&
+           sp_coverage_matrix_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &matrix, refining->error) &&
+           sp_enumerate_partially(&matrix, budgets, count, refining->deadline, lineups, refining->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_lineup_draft(&lineups[i], &trials->items[i].other, refining->error);
+        done = sp_lineup_partial(&lineups[i], &trials->items[i].other, refining->error);
     for (size_t i = 0; lineups && i < count; i++)
         sp_lineup_free(&lineups[i]);
     free(budgets);
     free(lineups);
     free(nozzles);
-    sp_table_free(&table);
+    sp_coverage_matrix_free(&matrix);
     return done;
 }
 
 sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better)
 {
     const sp_front *front = refining->front;
-    const sp_draft **drafts = calloc(trials->count + 1, sizeof *drafts);
+    const sp_partial **partials = calloc(trials->count + 1, sizeof *partials);
     sp_front_point *points = malloc((trials->count + 1) * sizeof *points);
-    bool done = (drafts && points) || sp_fail_memory(refining->error);
+    bool done = (partials && points) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < trials->count; i++)
-        if (!better || (trials->items[i].better && may_count(front, &trials->items[i].draft)))
-            drafts[i] = &trials->items[i].draft;
-    done = done && sp_front_measure_ahead(front, refining->search, drafts, trials->count, points, refining->error);
-    free(drafts);
+        if (!better || (trials->items[i].better && may_count(front, &trials->items[i].partial)))
+            partials[i] = &trials->items[i].partial;
+    done = done && sp_front_measure_ahead(front, refining->search, partials, trials->count, points, refining->error);
+    free(partials);
     if (done)
         return points;
     free(points);
     return NULL;
 }
 
-bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
+bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *best)
 {
     const sp_search *search = refining->search;
     sp_front_point *points = NULL;
-    bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error) &&
+    bool done = sp_local_search_run(&refining->local_search, trials->items, trials->count, refining->error) &&
                 (points = sp_trials_measure_ahead(refining, trials, true));
     for (size_t i = 0; done && i < trials->count; i++) {
-        sp_draft *draft = &trials->items[i].draft;
-        if (!trials->items[i].better || !may_count(refining->front, draft))
+        sp_partial *partial = &trials->items[i].partial;
+        if (!trials->items[i].better || !may_count(refining->front, partial))
             continue;
-        done = sp_front_note(refining->front, search, draft, &points[i], refining->error);
-        if (done && best && sp_covers_more(search, draft, best)) {
-            sp_draft copy;
-            done = sp_draft_copy(search, draft, &copy, refining->error);
+        done = sp_front_note(refining->front, search, partial, &points[i], refining->error);
+        if (done && best && sp_covers_more(search, partial, best)) {
+            sp_partial copy;
+            done = sp_partial_copy(search, partial, &copy, refining->error);
             if (done) {
-                sp_draft_free(best);
+                sp_partial_free(best);
                 *best = copy;
             }
         }

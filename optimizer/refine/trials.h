@@ -1,8 +1,8 @@
-/* Trials: drafts that refinement polishes many at a time, and where it looks for others in their place. */
+/* Trials: layouts that local search refines, many at a time, and where it looks for others in their place. */
 #ifndef OPTIMIZER_TRIALS_H
 #define OPTIMIZER_TRIALS_H
 
-#include "refine/polish.h"
+#include "refine/local_search.h"
 #include "search/front.h"
 
 #define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
@@ -10,9 +10,9 @@
 typedef struct {
     const sp_search *search;
     const sp_pool *pool;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_front *front;
-    sp_polishing polishing;
+    sp_local_search local_search;
     uint64_t seeds; /* used so far */
     sp_error *error;
 } sp_refining;
@@ -29,18 +29,19 @@ static inline bool sp_point_same(const sp_front_point *a, const sp_front_point *
            fabs(a->outlay - b->outlay) <= SP_GAIN_LEAST * b->outlay;
 }
 
-/* Another trial of a copy of the draft, within a budget (m³/s of outlay). */
-bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_draft *draft, double budget, sp_trial_kind kind);
-/* A trial of another draft for so much water, to be better than what the front has for no more. */
+/* Another trial of a copy of the layout, within a budget (m³/s of outlay). */
+bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget,
+                 sp_trial_kind kind);
+/* A trial of another layout for so much water, to be better than what the front has for no more. */
 bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
-/* Finds the trials' other drafts: of the pool at the flows that refinement may set, and of nozzles that the front's
- * drafts have already, put together anew. */
+/* Finds the trials' other layouts: of the pool at the flows that refinement may set, and of nozzles that the front's
+ * layouts have already, put together anew. */
 bool sp_find_others(sp_refining *refining, sp_trials *trials);
-/* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
- * if that is more than it does itself. */
-bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best);
-/* What the trials' drafts are measured as, as far as ranks have done that ahead (see sp_front_measure_ahead); `better`:
- * of those that got better and may count. [trials->count], the caller frees; NULL on error. */
+/* Searches locally from the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that
+ * covers most, if that is more than it does itself. */
+bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *best);
+/* What the trials' layouts are measured as, as far as ranks have done that ahead (see sp_front_measure_ahead);
+ * `better`: of those that got better and may count. [trials->count], the caller frees; NULL on error. */
 sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better);
 /* Keeps those of which `kept` [count] is true, in their order. */
 void sp_trials_keep(sp_trials *trials, const bool *kept);

@@ -99,13 +99,13 @@ static inline float swept_value(float flux, float count)
     return flux >= 1 ? alone : count > 0 ? flux : 0;
 }
 
-void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_make *make,
+void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_variant *variant,
                     const sp_region *region, float *field)
 {
     const sp_view *view = sweeper->view;
-    sp_posed_spray posed = {.spray = make->spray, .type = make->type, .flow = make->flow};
+    sp_posed_spray posed = {.spray = variant->spray, .type = variant->type, .flow = variant->flow};
     sp_field_making making = sp_field_begin(search, &posed, search->view_area, field);
-    float strength = (float)sp_make_strength(search, make) * (1 + sweeper->more);
+    float strength = (float)sp_variant_strength(search, variant) * (1 + sweeper->more);
     float intensity = (float)making.intensity * (1 + sweeper->more);
     size_t runs = search->sweeps->shares(&search->visibility->bins, sweeper->cull, region, view, sweeper->share,
                                          sweeper->counts, sweeper->runs);
@@ -122,27 +122,27 @@ void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, co
     sp_field_end(&making);
 }
 
-double sp_make_strength(const sp_search *search, const sp_make *make)
+double sp_variant_strength(const sp_search *search, const sp_variant *variant)
 {
-    return search->plenty > 0 ? make->flow / (make->spray.solid_angle * search->plenty) : INFINITY;
+    return search->plenty > 0 ? variant->flow / (variant->spray.solid_angle * search->plenty) : INFINITY;
 }
 
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
-    const sp_make *make = &search->candidates->makes[pose.make];
+    const sp_variant *variant = &search->candidates->variants[pose.variant];
     sp_desk *desk = NULL;
-    if (!sp_type_is_uniform(make->type)) {
+    if (!sp_type_is_uniform(variant->type)) {
         sp_footprint_field(search, sp_footprints_look(search->footprints, pose), field);
         return;
     }
-    const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->launch, &desk);
+    const sp_view *view = sp_visibility_look(search->visibility, pose.site, variant->launch, &desk);
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
-    sp_posed_spray posed = {.spray = make->spray,
+    sp_posed_spray posed = {.spray = variant->spray,
                             .frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up),
-                            .strength = sp_make_strength(search, make),
-                            .type = make->type,
-                            .flow = make->flow};
+                            .strength = sp_variant_strength(search, variant),
+                            .type = variant->type,
+                            .flow = variant->flow};
     sp_field_view(search, view, &posed, field);
     sp_visibility_leave(search->visibility, &desk);
 }

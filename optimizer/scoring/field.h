@@ -35,21 +35,21 @@ void sp_field_end(const sp_field_making *making);
 /* Field of a spray at a view's mounting point; its strength is per transfer as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field);
 /* The same of a candidate pose; of any nozzle that sweeps know, traced anew, where `wet` [patch_count] is given (NULL:
- * everywhere) only on the patches that a draft leaves dry so: what the nozzle adds to it is the same. */
+ * everywhere) only on the patches that a partial layout leaves dry so: what the nozzle adds to it is the same. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const float *wet, float *field, sp_error *error);
 /* One thread's memory for fields by sweeps, which are a little less exact and made much faster. */
 typedef struct {
     const sp_view *view;
-    const sp_cull *cull;      /* of the view and the make's spray */
+    const sp_cull *cull;      /* of the view and the variant's spray */
     float more;               /* share by which all is rounded upwards */
     float *share, *counts;    /* [largest view + 2 SP_LANES] */
     sp_run_of_arrivals *runs; /* [SP_BINS] */
 } sp_field_sweeper;
-/* The field of a make in a region that was turned to the pose. */
-void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_make *make,
+/* The field of a variant in a region that was turned to the pose. */
+void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_variant *variant,
                     const sp_region *region, float *field);
 
 /* Flux over threshold per transfer of a view. */
-double sp_make_strength(const sp_search *search, const sp_make *make);
+double sp_variant_strength(const sp_search *search, const sp_variant *variant);
 #endif

@@ -18,8 +18,8 @@ static const sp_footprint nothing = {0};
 
 static bool any_nonuniform(const sp_candidates *candidates)
 {
-    for (size_t k = 0; k < candidates->make_count; k++)
-        if (!sp_type_is_uniform(candidates->makes[k].type))
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        if (!sp_type_is_uniform(candidates->variants[k].type))
             return true;
     return false;
 }
@@ -117,10 +117,10 @@ const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose)
     return keep(footprints, number, trace(footprints, pose, &error), &error);
 }
 
-bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t make)
+bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant)
 {
     const sp_search *search = &footprints->search;
-    return footprints->known[sp_candidates_number(search->candidates, search->sites, (sp_pose){site, make, 0, 0})];
+    return footprints->known[sp_candidates_number(search->candidates, search->sites, (sp_pose){site, variant, 0, 0})];
 }
 
 bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error)
@@ -138,10 +138,10 @@ static sp_pose *list_poses(const sp_search *search, size_t *count)
     sp_pose *poses = malloc((candidates->pose_start[search->sites->count] + 1) * sizeof *poses);
     *count = 0;
     for (uint32_t site = 0; poses && site < search->sites->count; site++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
-            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->makes[k].type); a++)
-                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
+            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->variants[k].type); a++)
+                for (uint32_t r = 0; r < candidates->variants[k].roll_count; r++)
                     poses[(*count)++] = (sp_pose){site, k, a, r};
         }
     return poses;
@@ -162,12 +162,12 @@ static bool has_room(const sp_footprints *footprints, size_t poses, sp_error *er
 static size_t end_of_batch(const sp_pose *poses, size_t first, size_t count)
 {
     size_t end = first + BATCH < count ? first + BATCH : count;
-    while (end < count && poses[end].site == poses[end - 1].site && poses[end].make == poses[end - 1].make)
+    while (end < count && poses[end].site == poses[end - 1].site && poses[end].variant == poses[end - 1].variant)
         end++;
     return end;
 }
 
-bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error)
+bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_error *error)
 {
     size_t count;
     sp_pose *poses = list_poses(&footprints->search, &count);
@@ -176,7 +176,8 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *er
     for (size_t first = 0, end; done && first < count; first = end) {
         end = end_of_batch(poses, first, count);
         /* out of time the first are traced all the same, so that there is something to choose from */
-        if (!sp_watch_goes_on(watch, "footprints", (double)first / (double)count) && (first || watch->cancelled))
+        if (!sp_deadline_goes_on(deadline, "footprints", (double)first / (double)count) &&
+            (first || deadline->cancelled))
             break;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t i = first; i < end; i++)

@@ -3,7 +3,7 @@
 #define OPTIMIZER_FOOTPRINTS_H
 
 #include "scoring/footprint.h"
-#include "watch/watch.h"
+#include "deadline/deadline.h"
 
 typedef struct sp_footprints sp_footprints;
 
@@ -12,14 +12,14 @@ typedef struct sp_footprints sp_footprints;
 bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error);
 /* Accepts NULL. */
 void sp_footprints_destroy(sp_footprints *footprints);
-/* Traces all of them as far as time and what views leave of the options' memory allow, all poses of a make at a site or
- * none. Those that are left out when the time ends bring nothing from then on; where memory ends it fails with
+/* Traces all of them as far as time and what views leave of the options' memory allow, all poses of a variant at a site
+ * or none. Those that are left out when the time ends bring nothing from then on; where memory ends it fails with
  * SP_ERROR_INPUT. */
-bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error);
+bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_error *error);
 /* The footprint of a pose, owned by the footprints. Safe to call from many threads. */
 const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);
-/* False of a make's poses at a site that were left out. */
-bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t make);
+/* False of a variant's poses at a site that were left out. */
+bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant);
 /* False where a look has failed since; what was looked at then was empty. Accepts NULL. */
 bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error);
 

@@ -1,41 +1,41 @@
 #include "scoring/gain.h"
 
-double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field)
+double sp_field_gain(const sp_search *search, const sp_partial *partial, const float *field)
 {
     double gain = 0;
-    if (draft->film)
-        return sp_field_score(search, draft, field).gain;
+    if (partial->film)
+        return sp_field_score(search, partial, field).gain;
     for (size_t p = 0; p < search->patch_count; p++)
-        if (field[p] != 0 && draft->wet[p] < SP_ENOUGH) {
-            float wet = draft->wet[p], dry = draft->dry[p];
+        if (field[p] != 0 && partial->wet[p] < SP_ENOUGH) {
+            float wet = partial->wet[p], dry = partial->dry[p];
             sp_pour(search, field[p], &wet, &dry);
             gain += (double)(search->area[p] *
-                             (sp_worth(search, wet, dry) - sp_worth(search, draft->wet[p], draft->dry[p])));
+                             (sp_worth(search, wet, dry) - sp_worth(search, partial->wet[p], partial->dry[p])));
         }
     return gain * search->all;
 }
 
-sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field)
+sp_score sp_field_score(const sp_search *search, const sp_partial *partial, const float *field)
 {
     sp_credit credit = {search->single, search->credit, 0};
-    sp_wetted wetted = {search->patch_count, search->area, draft->hit, draft->film, draft->wet, draft->dry};
+    sp_wetted wetted = {search->patch_count, search->area, partial->hit, partial->film, partial->wet, partial->dry};
     double sums[2];
     search->sweeps->score(&credit, &wetted, field, field + search->patch_count, sums);
     return (sp_score){sums[0] * search->all, sums[1] * search->all};
 }
 
-sp_score sp_footprint_score(const sp_search *search, const sp_draft *draft, const sp_footprint *footprint)
+sp_score sp_footprint_score(const sp_search *search, const sp_partial *partial, const sp_footprint *footprint)
 {
     sp_score score = {0, 0};
     for (size_t i = 0; i < footprint->count; i++) {
         const sp_print *print = &footprint->prints[i];
         uint32_t p = print->patch;
-        float before = sp_worth(search, draft->wet[p], draft->dry[p]), hit = draft->hit[p], dry = draft->dry[p];
-        if (draft->wet[p] >= SP_ENOUGH || search->area[p] <= 0)
+        float before = sp_worth(search, partial->wet[p], partial->dry[p]), hit = partial->hit[p], dry = partial->dry[p];
+        if (partial->wet[p] >= SP_ENOUGH || search->area[p] <= 0)
             continue;
         sp_pour(search, print->hit, &hit, &dry);
         sp_pour(search, -print->edge, &hit, &dry);
-        float wet = draft->film ? fmaxf(hit, draft->film[p] + print->film) : hit;
+        float wet = partial->film ? fmaxf(hit, partial->film[p] + print->film) : hit;
         score.gain += (double)(search->area[p] * (sp_worth(search, wet, dry) - before));
         score.room += (double)(search->area[p] * (1 - before));
     }

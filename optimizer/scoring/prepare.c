@@ -91,8 +91,8 @@ static void set_outlay(sp_search *search)
     double dearest = 0, least = INFINITY;
     for (size_t m = 0; m < options->mount_count; m++)
         dearest = fmax(dearest, options->mounts[m].cost);
-    for (size_t k = 0; k < search->candidates->make_count; k++)
-        least = fmin(least, search->candidates->makes[k].flow);
+    for (size_t k = 0; k < search->candidates->variant_count; k++)
+        least = fmin(least, search->candidates->variants[k].flow);
     search->costly = dearest > 0;
     search->outlay_most = options->max_water;
     if (!search->costly || isinf(options->max_water))

@@ -68,40 +68,41 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
     free(sweepers);
 }
 
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t launch)
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, uint32_t site,
+                     size_t launch)
 {
     if (sweeper->search == search && sweeper->site == site && sweeper->launch == launch)
         return;
     const sp_view *view = sp_visibility_look(search->visibility, site, launch, &sweeper->desk);
     sweeper->search = search;
-    sweeper->make = SIZE_MAX;
+    sweeper->variant = SIZE_MAX;
     sweeper->view = view;
     sweeper->site = site;
     sweeper->launch = launch;
     sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
-    sweeper->draft = draft;
+    sweeper->partial = partial;
     sweeper->fields.view = view;
     if (!view->start || search->runoffs)
         return;
     for (uint32_t i = 0; i < view->count; i++) {
-        sweeper->had[i] = draft->wet[view->patch[i]];
-        sweeper->area[i] = search->area[view->patch[i]] * draft->dry[view->patch[i]] * sp_view_part(view, i);
+        sweeper->had[i] = partial->wet[view->patch[i]];
+        sweeper->area[i] = search->area[view->patch[i]] * partial->dry[view->patch[i]] * sp_view_part(view, i);
     }
     sp_credit credit = {search->single, search->credit, 0};
     search->sweeps->room(&credit, view->count, sweeper->had, sweeper->area, sweeper->room);
     search->sweeps->total(view, sweeper->room, sweeper->room_total);
 }
 
-void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
+void sp_sweeper_take(sp_sweeper *sweeper, size_t variant)
 {
     const sp_search *search = sweeper->search;
-    const sp_make *own = &search->candidates->makes[make];
-    if (sweeper->make == make)
+    const sp_variant *own = &search->candidates->variants[variant];
+    if (sweeper->variant == variant)
         return;
-    sweeper->make = make;
+    sweeper->variant = variant;
     if (!sp_type_is_uniform(own->type))
         return;
-    double strength = sp_make_strength(search, own);
+    double strength = sp_variant_strength(search, own);
     sp_credit credit = {search->single, search->credit, (float)strength};
     sweeper->region = sp_region_create(&own->spray, &sweeper->frame, strength, 0);
     if (!sweeper->view->start)
@@ -117,23 +118,24 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
 {
     const sp_search *search = sweeper->search;
-    const sp_make *make = &search->candidates->makes[sweeper->make];
+    const sp_variant *variant = &search->candidates->variants[sweeper->variant];
     uint32_t mount = search->sites->items[sweeper->site].mount;
-    sp_vec3 lean = sp_candidates_axes(search->candidates, mount, sweeper->make)->axes[axis];
+    sp_vec3 lean = sp_candidates_axes(search->candidates, mount, sweeper->variant)->axes[axis];
     sp_vec3 z = sp_frame_axis(&sweeper->frame, lean), up = sp_evaluator_setup(search->coarse)->up;
     sp_region region = sweeper->region;
-    sp_frame frame = region.fan ? sp_nozzle_frame(z, sp_make_roll(make, roll), up) : (sp_frame){z, z, z};
+    sp_frame frame = region.fan ? sp_nozzle_frame(z, sp_variant_roll(variant, roll), up) : (sp_frame){z, z, z};
     sp_region_turn(&region, &frame);
     return region;
 }
 
-/* The footprint of a pose at hand; NULL where sweeps know its make. */
+/* The footprint of a pose at hand; NULL where sweeps know its variant. */
 static const sp_footprint *footprint_at(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
 {
     const sp_search *search = sweeper->search;
-    sp_pose pose = {sweeper->site, (uint32_t)sweeper->make, axis, roll};
-    return sp_type_is_uniform(search->candidates->makes[pose.make].type) ? NULL
-                                                                         : sp_footprints_look(search->footprints, pose);
+    sp_pose pose = {sweeper->site, (uint32_t)sweeper->variant, axis, roll};
+    return sp_type_is_uniform(search->candidates->variants[pose.variant].type)
+               ? NULL
+               : sp_footprints_look(search->footprints, pose);
 }
 
 const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
@@ -145,7 +147,7 @@ const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t
         return sweeper->field;
     }
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
-    sp_field_sweep(search, &sweeper->fields, &search->candidates->makes[sweeper->make], &region, sweeper->field);
+    sp_field_sweep(search, &sweeper->fields, &search->candidates->variants[sweeper->variant], &region, sweeper->field);
     return sweeper->field;
 }
 
@@ -154,12 +156,12 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     const sp_search *search = sweeper->search;
     const sp_footprint *footprint = footprint_at(sweeper, axis, roll);
     if (footprint)
-        return sp_footprint_score(search, sweeper->draft, footprint);
+        return sp_footprint_score(search, sweeper->partial, footprint);
     if (!sweeper->view->start)
         return (sp_score){0};
     /* film knows no bins: what runs down comes from everywhere above */
     if (search->runoffs)
-        return sp_field_score(search, sweeper->draft, sp_sweeper_field(sweeper, axis, roll));
+        return sp_field_score(search, sweeper->partial, sp_sweeper_field(sweeper, axis, roll));
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
     const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
     double sums[2];
@@ -172,23 +174,24 @@ double sp_sweeper_most(const sp_sweeper *sweeper)
 {
     const sp_search *search = sweeper->search;
     double sum = 0;
-    if (search->runoffs || !sp_type_is_uniform(search->candidates->makes[sweeper->make].type))
+    if (search->runoffs || !sp_type_is_uniform(search->candidates->variants[sweeper->variant].type))
         return INFINITY;
     for (size_t b = 0; sweeper->view->start && b < SP_BINS; b++)
         sum += (double)sweeper->gain_total[b];
     return ROUNDED_MORE * sum * search->all;
 }
 
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least)
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, sp_pose pose,
+                       double least)
 {
-    sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].launch);
-    sp_sweeper_take(sweeper, pose.make);
+    sp_sweeper_look(sweeper, search, partial, pose.site, search->candidates->variants[pose.variant].launch);
+    sp_sweeper_take(sweeper, pose.variant);
     return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
 }
 
-bool sp_search_knows(const sp_search *search, uint32_t site, size_t make)
+bool sp_search_knows(const sp_search *search, uint32_t site, size_t variant)
 {
-    const sp_make *own = &search->candidates->makes[make];
+    const sp_variant *own = &search->candidates->variants[variant];
     return sp_type_is_uniform(own->type) ? sp_visibility_known(search->visibility, site, own->launch)
-                                         : sp_footprints_know(search->footprints, site, (uint32_t)make);
+                                         : sp_footprints_know(search->footprints, site, (uint32_t)variant);
 }

@@ -8,8 +8,8 @@
 
 #define SP_ROUNDING 1e-9 /* share of the water by which a sum of flows may lie above what is allowed */
 /* Shares of the area by which equal things may differ, so that where geometry is mirrored or repeated the first of
- * equals is taken, not the one that round-off favours: what a draft covers, and scores, which are summed in single
- * precision. */
+ * equals is taken, not the one that round-off favours: what a partial layout covers, and scores, which are summed in
+ * single precision. */
 #define SP_TIE 1e-9
 #define SP_SCORE_TIE 1e-6
 

@@ -59,7 +59,7 @@ typedef struct {
     float strength; /* flux over threshold per unit transfer */
 } sp_credit;
 
-/* Patches as a draft leaves them, [patch_count] each (see sp_draft), for `score`. */
+/* Patches as a partial layout leaves them, [patch_count] each (see sp_partial), for `score`. */
 typedef struct {
     size_t count;
     const float *area, *hit, *film, *wet, *dry;
@@ -93,8 +93,8 @@ typedef struct {
     void (*gain)(const sp_credit *credit, size_t count, const float *had, const float *area, const float *transfer,
                  float *gain);
     void (*room)(const sp_credit *credit, size_t count, const float *had, const float *area, float *room);
-    /* What a field and its film add to a draft: sums[0]; and could add if others helped, where it is worth hoping for:
-     * sums[1]. */
+    /* What a field and its film add to a partial layout: sums[0]; and could add if others helped, where it is worth
+     * hoping for: sums[1]. */
     void (*score)(const sp_credit *credit, const sp_wetted *wetted, const float *field, const float *film,
                   double sums[2]);
 } sp_sweep_set;

@@ -53,10 +53,10 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
                             size_t launch)
 {
     double reach = -1;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        if (candidates->makes[k].launch == launch && sp_type_is_uniform(candidates->makes[k].type) &&
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        if (candidates->variants[k].launch == launch && sp_type_is_uniform(candidates->variants[k].type) &&
             sp_candidates_axes(candidates, site->mount, k)->count)
-            reach = fmax(reach, candidates->makes[k].reach);
+            reach = fmax(reach, candidates->variants[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
 }
 
@@ -236,17 +236,17 @@ static size_t batch_of(const sp_place_options *options)
 }
 
 /* Whether time is so short that the poses of so many sites leave none for more than a first nozzle. */
-static bool too_many(const sp_visibility *visibility, size_t sites, sp_watch *watch)
+static bool too_many(const sp_visibility *visibility, size_t sites, sp_deadline *deadline)
 {
     double all = (double)visibility->candidates->pose_start[visibility->site_count];
     double poses = all * (double)sites / (double)visibility->site_count;
     return sp_run_hurries(&visibility->options->run) &&
-           SCORING * poses > FIRST_SHARE * sp_watch_left(watch) * sp_watch_pace(watch);
+           SCORING * poses > FIRST_SHARE * sp_deadline_left(deadline) * sp_deadline_pace(deadline);
 }
 
 /* All sites as far as time allows. Views are kept while it is certain that there is room for them, for those of a
  * whole batch and for every thread's work. */
-static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
+static bool survey_all(sp_survey *survey, sp_deadline *deadline, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     const sp_place_options *options = visibility->options;
@@ -260,12 +260,14 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
     for (size_t first = 0; first < sites; first += batch) {
         size_t end = first + batch < sites ? first + batch : sites;
         /* out of time the first batch is traced all the same, so that there is something to choose from */
-        if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites) && (first || watch->cancelled))
+        if (!sp_deadline_goes_on(deadline, "visibility", (double)first / (double)sites) &&
+            (first || deadline->cancelled))
             break;
         if (first && options->run.time_limit > 0 &&
-            (sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit || too_many(visibility, end, watch))) {
-            watch->interrupted = true;
-            sp_watch_cut(watch, "visibility");
+            (sp_deadline_elapsed(deadline) > TIME_SHARE * options->run.time_limit ||
+             too_many(visibility, end, deadline))) {
+            deadline->interrupted = true;
+            sp_deadline_cut(deadline, "visibility");
             break;
         }
         double views = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
@@ -347,19 +349,21 @@ static double patterns_to_trace(const sp_sites *sites, const sp_candidates *cand
 {
     double patterns = 0;
     for (size_t i = 0; i < sites->count; i++)
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
-            if (sp_type_is_uniform(make->type))
+        for (size_t k = 0; k < candidates->variant_count; k++) {
+            const sp_variant *variant = &candidates->variants[k];
+            double count =
+                (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * variant->roll_count);
+            if (sp_type_is_uniform(variant->type))
                 continue;
             *poses += count;
-            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
+            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = variant->type});
         }
     return patterns;
 }
 
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
-                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
+                          const sp_candidates *candidates, sp_deadline *deadline, sp_visibility *visibility,
+                          sp_error *error)
 {
     size_t views = sites->count * candidates->launch_count, patches = sp_evaluator_patches(coarse)->count;
     double footprints = 0;
@@ -384,7 +388,7 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     bool done = visibility->views && visibility->known && visibility->sights && survey.sizes && survey.cells &&
                 survey.any_marked;
     done = done || sp_fail_memory(error);
-    done = done && survey_all(&survey, watch, error) && furnish(&survey, error);
+    done = done && survey_all(&survey, deadline, error) && furnish(&survey, error);
     free(survey.sizes);
     free(survey.cells);
     free(survey.any_marked);
@@ -413,7 +417,7 @@ static bool any_drops(const sp_candidates *candidates)
 }
 
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
-                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       const sp_candidates *candidates, sp_deadline *deadline, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error)
 {
     double views = (double)sites->count * (double)candidates->launch_count, footprints = 0;
@@ -437,7 +441,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
         if (!*resampled)
             return false;
     }
-    if (sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, watch, visibility, error))
+    if (sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, deadline, visibility, error))
         return true;
     sp_evaluator_destroy(*resampled);
     *resampled = NULL;

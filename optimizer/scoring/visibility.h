@@ -6,7 +6,7 @@
 #define OPTIMIZER_VISIBILITY_H
 
 #include "scoring/view.h"
-#include "watch/watch.h"
+#include "deadline/deadline.h"
 
 /* Where one view at a time is worked out that is not kept. */
 typedef struct sp_desk {
@@ -46,13 +46,14 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 /* Traces all views on patches as fine as time allows: those of *resampled, or of `fine` itself where that stays NULL.
  * The caller destroys it. */
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
-                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       const sp_candidates *candidates, sp_deadline *deadline, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error);
 /* Traces all views on the patches of `coarse`. Sites left out when the time ends see nothing. Footprints, which are all
  * kept, are left what they may come to, or half of the memory. Fails with SP_ERROR_INPUT where the rest does not hold
  * one view and what tracing it takes. */
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
-                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error);
+                          const sp_candidates *candidates, sp_deadline *deadline, sp_visibility *visibility,
+                          sp_error *error);
 void sp_visibility_free(sp_visibility *visibility);
 /* False where a look has failed since; what was looked at then was empty. */
 bool sp_visibility_sound(const sp_visibility *visibility, sp_error *error);

@@ -7,51 +7,51 @@
 #define OUTLAY_STEP 0.02 /* share of the outlay that a reduction must save */
 
 /* Replaces item i where the pool holds something better for its place. The item then stands last. */
-static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_draft *draft,
+static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_partial *partial,
                     size_t i, bool *changed, sp_error *error)
 {
-    double before = draft->value;
-    sp_placed own = sp_draft_take(search, draft, i);
+    double before = partial->value;
+    sp_placed own = sp_partial_take(search, partial, i);
     double step = GAIN_LEAST * search->all;
-    double least = sp_field_gain(search, draft, own.field) + step;
+    double least = sp_field_gain(search, partial, own.field) + step;
     double gain;
     sp_pose pose;
-    if (!sp_pool_best(search, pool, draft, 0, budget, least, bench, &pose, &gain, error)) {
+    if (!sp_pool_best(search, pool, partial, 0, budget, least, bench, &pose, &gain, error)) {
         free(own.field);
         return false;
     }
     if (gain <= least)
-        return sp_draft_add(search, draft, own, error);
-    if (!sp_draft_add_pose(search, draft, pose, error)) {
+        return sp_partial_add(search, partial, own, error);
+    if (!sp_partial_add_pose(search, partial, pose, error)) {
         free(own.field);
         return false;
     }
     /* scores only rank: what counts is the field */
-    if (draft->value <= before + step) {
-        sp_draft_remove(search, draft, draft->count - 1);
-        return sp_draft_add(search, draft, own, error);
+    if (partial->value <= before + step) {
+        sp_partial_remove(search, partial, partial->count - 1);
+        return sp_partial_add(search, partial, own, error);
     }
     free(own.field);
     *changed = true;
     return true;
 }
 
-static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_watch *watch,
-                  sp_draft *draft, sp_error *error)
+static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_deadline *deadline,
+                  sp_partial *partial, sp_error *error)
 {
     bool done = true, changed = true;
-    sp_draft_refresh(search, draft);
-    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); i++) {
+    sp_partial_refresh(search, partial);
+    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_deadline_goes_on(deadline, "exchange", 0); i++) {
         changed = false;
-        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, draft, error);
+        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, partial, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
-        for (size_t k = 0; done && k < draft->count; k++)
-            done = replace(search, pool, budget, bench, draft, 0, &changed, error);
+        for (size_t k = 0; done && k < partial->count; k++)
+            done = replace(search, pool, budget, bench, partial, 0, &changed, error);
     }
     return done;
 }
 
-bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_draft *draft,
+bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_deadline *deadline, sp_partial *partial,
                 sp_error *error)
 {
     sp_bench bench;
@@ -60,31 +60,31 @@ bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, pool, budget, &bench, watch, draft, error) &&
-                sweep(&exact, pool, budget, &bench, watch, draft, error);
-    sp_draft_refresh(search, draft);
+    bool done = sweep(search, pool, budget, &bench, deadline, partial, error) &&
+                sweep(&exact, pool, budget, &bench, deadline, partial, error);
+    sp_partial_refresh(search, partial);
     sp_bench_free(&bench);
     return done;
 }
 
-/* Items in the order of what the draft would lose with them, least first. The caller frees. */
-static size_t *by_loss(const sp_search *search, const sp_draft *draft, sp_error *error)
+/* Items in the order of what the partial layout would lose with them, least first. The caller frees. */
+static size_t *by_loss(const sp_search *search, const sp_partial *partial, sp_error *error)
 {
-    size_t *order = malloc((draft->count ? draft->count : 1) * sizeof *order);
-    double *loss = malloc((draft->count ? draft->count : 1) * sizeof *loss);
-    sp_draft rest = {0};
+    size_t *order = malloc((partial->count ? partial->count : 1) * sizeof *order);
+    double *loss = malloc((partial->count ? partial->count : 1) * sizeof *loss);
+    sp_partial rest = {0};
     if (!order || !loss)
         sp_fail_memory(error);
-    if (!order || !loss || !sp_draft_copy(search, draft, &rest, error)) {
+    if (!order || !loss || !sp_partial_copy(search, partial, &rest, error)) {
         free(order);
         free(loss);
         return NULL;
     }
-    for (size_t i = 0; i < draft->count; i++) {
+    for (size_t i = 0; i < partial->count; i++) {
         /* the first goes out and comes back last, so that after all turns the order is as before */
-        sp_placed placed = sp_draft_take(search, &rest, 0);
-        loss[i] = draft->value - rest.value;
-        if (!sp_draft_add(search, &rest, placed, error)) {
+        sp_placed placed = sp_partial_take(search, &rest, 0);
+        loss[i] = partial->value - rest.value;
+        if (!sp_partial_add(search, &rest, placed, error)) {
             free(order);
             order = NULL;
             break;
@@ -94,62 +94,63 @@ static size_t *by_loss(const sp_search *search, const sp_draft *draft, sp_error 
             order[at] = order[at - 1];
         order[at] = i;
     }
-    sp_draft_free(&rest);
+    sp_partial_free(&rest);
     free(loss);
     return order;
 }
 
-bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double budget, double enough,
-               sp_watch *watch, sp_draft *reduced, bool *found, sp_error *error)
+bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double budget, double enough,
+               sp_deadline *deadline, sp_partial *reduced, bool *found, sp_error *error)
 {
     *found = false;
-    size_t *order = by_loss(search, draft, error);
+    size_t *order = by_loss(search, partial, error);
     bool done = order != NULL;
-    for (size_t i = 0;
-         done && i < draft->count && (!*found || reduced->covered < enough) && sp_watch_goes_on(watch, "exchange", 0);
+    for (size_t i = 0; done && i < partial->count && (!*found || reduced->covered < enough) &&
+                       sp_deadline_goes_on(deadline, "exchange", 0);
          i++) {
-        sp_draft trial;
-        done = sp_draft_copy(search, draft, &trial, error);
+        sp_partial trial;
+        done = sp_partial_copy(search, partial, &trial, error);
         if (!done)
             break;
-        sp_draft_remove(search, &trial, order[i]);
+        sp_partial_remove(search, &trial, order[i]);
         /* one nozzle may not be enough to leave out: then the smallest remaining follow */
         while (trial.count && trial.outlay > budget)
-            sp_draft_remove(search, &trial, trial.count - 1);
-        done = sp_improve(search, pool, budget, watch, &trial, error);
+            sp_partial_remove(search, &trial, trial.count - 1);
+        done = sp_improve(search, pool, budget, deadline, &trial, error);
         if (done && trial.outlay <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
             if (*found)
-                sp_draft_free(reduced);
+                sp_partial_free(reduced);
             *reduced = trial;
             *found = true;
         } else {
-            sp_draft_free(&trial);
+            sp_partial_free(&trial);
         }
     }
     free(order);
     if (!done && *found) {
-        sp_draft_free(reduced);
+        sp_partial_free(reduced);
         *found = false;
     }
     return done;
 }
 
-bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_draft *draft,
+bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_deadline *deadline, sp_partial *partial,
                sp_error *error)
 {
     for (;;) {
-        sp_draft reduced;
+        sp_partial reduced;
         bool found;
-        if (draft->count == 0 || !sp_watch_goes_on(watch, "exchange", 0))
+        if (partial->count == 0 || !sp_deadline_goes_on(deadline, "exchange", 0))
             return true;
-        if (!sp_reduce(search, pool, draft, draft->outlay * (1 - OUTLAY_STEP), target, watch, &reduced, &found, error))
+        if (!sp_reduce(search, pool, partial, partial->outlay * (1 - OUTLAY_STEP), target, deadline, &reduced, &found,
+                       error))
             return false;
         if (!found || reduced.covered < target) {
             if (found)
-                sp_draft_free(&reduced);
+                sp_partial_free(&reduced);
             return true;
         }
-        sp_draft_free(draft);
-        *draft = reduced;
+        sp_partial_free(partial);
+        *partial = reduced;
     }
 }

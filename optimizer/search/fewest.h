@@ -6,11 +6,10 @@
 #include "search/front.h"
 #include "search/greedy.h"
 
-/* Measures, for the front, the best drafts found of rising numbers of nozzles of the pool, within an outlay of `budget`
- * (m³/s), fewer than the front's best has. Each number starts from what was found for one less and from the first of
- * `greedy`.
- */
-bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, double budget,
-                    sp_watch *watch, sp_front *front, sp_error *error);
+/* Measures, for the front, the best layouts found of rising numbers of nozzles of the pool, within an outlay of
+ * `budget` (m³/s), fewer than the front's best has. Each number starts from what was found for one less and from the
+ * first of `greedy`. */
+bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_partial *greedy, double budget,
+                    sp_deadline *deadline, sp_front *front, sp_error *error);
 
 #endif

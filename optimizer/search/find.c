@@ -1,9 +1,9 @@
 #include "search/find.h"
 
 #include "scoring/prepare.h"
-#include "scoring/draft_told.h"
+#include "scoring/partial_told.h"
 #include "search/fewest.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 #include "search/walk.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 
 typedef struct {
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_front *front;
     sp_pool *pool;
     sp_error *error;
@@ -26,41 +26,41 @@ typedef struct {
 
 /* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one, unless a
  * smaller share is enough. */
-static bool first_draft(const sp_finding *finding, double enough, sp_draft *draft)
+static bool first_partial(const sp_finding *finding, double enough, sp_partial *partial)
 {
     double coarse = enough * finding->target;
     sp_front_point point;
     for (int round = 0; round < ROUNDS_MOST; round++) {
-        size_t before = draft->count;
-        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, draft, finding->pool,
+        size_t before = partial->count;
+        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->deadline, partial, finding->pool,
                        finding->error) ||
-            !sp_front_measure(finding->front, finding->search, draft, &point, finding->error))
+            !sp_front_measure(finding->front, finding->search, partial, &point, finding->error))
             return false;
-        if (point.area >= finding->target || enough < 1 || (round && draft->count == before))
+        if (point.area >= finding->target || enough < 1 || (round && partial->count == before))
             return true;
-        coarse = draft->covered + (finding->target - point.area);
+        coarse = partial->covered + (finding->target - point.area);
     }
     return true;
 }
 
 /* Greedy over the pool with another weight of outlay, improved within what is allowed. */
-static bool other_draft(const sp_finding *finding, double power)
+static bool other_partial(const sp_finding *finding, double power)
 {
-    sp_draft draft;
+    sp_partial partial;
     sp_bench bench;
-    if (!sp_draft_create(finding->search, &draft, finding->error))
+    if (!sp_partial_create(finding->search, &partial, finding->error))
         return false;
     double coarse = finding->target - finding->front->bias;
     bool done = sp_bench_create(finding->search, finding->pool, &bench, finding->error);
     if (done) {
-        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &draft,
+        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &partial,
                               finding->error);
         sp_bench_free(&bench);
     }
-    double budget = draft.covered >= coarse ? draft.outlay * (1 + SP_ROUNDING) : finding->budget;
-    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error) &&
-           sp_front_measure(finding->front, finding->search, &draft, NULL, finding->error);
-    sp_draft_free(&draft);
+    double budget = partial.covered >= coarse ? partial.outlay * (1 + SP_ROUNDING) : finding->budget;
+    done = done && sp_improve(finding->search, finding->pool, budget, finding->deadline, &partial, finding->error) &&
+           sp_front_measure(finding->front, finding->search, &partial, NULL, finding->error);
+    sp_partial_free(&partial);
     return done;
 }
 
@@ -71,49 +71,50 @@ static bool shrink_best(const sp_finding *finding)
     for (int round = 0; done && round < ROUNDS_MOST; round++) {
         sp_front *front = finding->front;
         sp_front_point before = front->measured, point;
-        sp_draft draft;
-        if (!sp_draft_copy(finding->search, &front->best, &draft, finding->error))
+        sp_partial partial;
+        if (!sp_partial_copy(finding->search, &front->best, &partial, finding->error))
             return false;
         double target = before.area < finding->target ? before.area : finding->target;
         /* each round asks the coarse patches for a little more than the last one's miss */
         double coarse = target - front->bias + 0.001 * round * target;
-        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &draft, finding->error);
-        bool shrunk = done && draft.outlay < before.outlay;
+        done = sp_shrink(finding->search, finding->pool, coarse, finding->deadline, &partial, finding->error);
+        bool shrunk = done && partial.outlay < before.outlay;
         if (shrunk)
-            done = sp_front_measure(front, finding->search, &draft, &point, finding->error);
-        sp_draft_free(&draft);
+            done = sp_front_measure(front, finding->search, &partial, &point, finding->error);
+        sp_partial_free(&partial);
         if (!shrunk || (done && point.area >= target))
             break;
     }
     return done;
 }
 
-/* Start number i of a search within a budget: the first of the greedy order, or what was found by guessing. */
-static bool start_from(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
-                       size_t i, sp_draft *draft)
+/* Start number i of a search within a budget: the first of the greedy order, or what was found by partial enumeration.
+ */
+static bool start_from(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
+                       size_t i, sp_partial *partial)
 {
     if (i == 1)
-        return sp_lineup_draft(guessed, draft, finding->error);
-    if (!sp_draft_copy(finding->search, greedy, draft, finding->error))
+        return sp_lineup_partial(enumerated, partial, finding->error);
+    if (!sp_partial_copy(finding->search, greedy, partial, finding->error))
         return false;
-    while (draft->count && draft->outlay > budget)
-        sp_draft_remove(finding->search, draft, draft->count - 1);
+    while (partial->count && partial->outlay > budget)
+        sp_partial_remove(finding->search, partial, partial->count - 1);
     return true;
 }
 
-/* The better of what the starts improve to within a budget; *best, which holds a draft, becomes it. */
-static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
-                     sp_draft *best)
+/* The better of what the starts improve to within a budget; *best, which holds a layout, becomes it. */
+static bool start_at(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
+                     sp_partial *best)
 {
-    for (size_t i = 0; i < STARTS && sp_watch_goes_on(finding->watch, "front", 0); i++) {
-        sp_draft draft;
-        if (!start_from(finding, greedy, guessed, budget, i, &draft))
+    for (size_t i = 0; i < STARTS && sp_deadline_goes_on(finding->deadline, "front", 0); i++) {
+        sp_partial partial;
+        if (!start_from(finding, greedy, enumerated, budget, i, &partial))
             return false;
-        bool done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
-        bool better = done && sp_covers_more(finding->search, &draft, best);
-        sp_draft_free(better ? best : &draft);
+        bool done = sp_improve(finding->search, finding->pool, budget, finding->deadline, &partial, finding->error);
+        bool better = done && sp_covers_more(finding->search, &partial, best);
+        sp_partial_free(better ? best : &partial);
         if (better)
-            *best = draft;
+            *best = partial;
         if (!done)
             return false;
     }
@@ -125,8 +126,8 @@ static sp_ranks *ranks_of(const sp_finding *finding)
     return finding->search->options->run.ranks;
 }
 
-/* Walks on from every draft that is this rank's within its budget, many at a time. */
-static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft *drafts, size_t count)
+/* Walks on from every layout that is this rank's within its budget, many at a time. */
+static bool walk_all(const sp_finding *finding, const double *budgets, sp_partial *partials, size_t count)
 {
     sp_error failure = {0};
     int threads = sp_sweeper_threads(finding->search);
@@ -136,7 +137,7 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
         size_t i = count - 1 - k;
         sp_error mine = {0};
         if (sp_ranks_mine(ranks_of(finding), i) &&
-            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
+            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->deadline, &partials[i], &mine)) {
 #pragma omp critical(sp_find_failure)
             failure = mine;
         }
@@ -147,56 +148,56 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
 }
 
 /* What the others have found. */
-static bool share_drafts(const sp_finding *finding, sp_draft *drafts, size_t count)
+static bool share_partials(const sp_finding *finding, sp_partial *partials, size_t count)
 {
     sp_ranks *ranks = ranks_of(finding);
     sp_told told = {0};
     sp_heard heard;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i))
-            sp_tell_draft(finding->search, &drafts[i], &told);
+            sp_tell_partial(finding->search, &partials[i], &told);
     if (!sp_ranks_gather(ranks, "walks", &told, &heard, finding->error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i))
-            done = sp_hear_draft(finding->search, &heard, sp_ranks_owner(ranks, i), &drafts[i], finding->error);
+            done = sp_hear_partial(finding->search, &heard, sp_ranks_owner(ranks, i), &partials[i], finding->error);
     sp_heard_free(&heard);
     return done;
 }
 
-static bool measure_all(const sp_finding *finding, const sp_draft *drafts, size_t count)
+static bool measure_all(const sp_finding *finding, const sp_partial *partials, size_t count)
 {
-    const sp_draft **each = malloc((count + 1) * sizeof *each);
+    const sp_partial **each = malloc((count + 1) * sizeof *each);
     sp_front_point *points = malloc((count + 1) * sizeof *points);
     bool done = (each && points) || sp_fail_memory(finding->error);
     for (size_t i = 0; done && i < count; i++)
-        each[i] = &drafts[i];
+        each[i] = &partials[i];
     done = done && sp_front_measure_ahead(finding->front, finding->search, each, count, points, finding->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_front_note(finding->front, finding->search, &drafts[i], &points[i], finding->error);
+        done = sp_front_note(finding->front, finding->search, &partials[i], &points[i], finding->error);
     free(each);
     free(points);
     return done;
 }
 
 /* The best found within each budget, measured. */
-static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed,
+static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated,
                            const double *budgets, size_t count)
 {
-    sp_draft *drafts = calloc(count + 1, sizeof *drafts);
-    bool done = drafts || sp_fail_memory(finding->error);
+    sp_partial *partials = calloc(count + 1, sizeof *partials);
+    bool done = partials || sp_fail_memory(finding->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_draft_create(finding->search, &drafts[i], finding->error) &&
-               start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]);
+        done = sp_partial_create(finding->search, &partials[i], finding->error) &&
+               start_at(finding, greedy, &enumerated[i], budgets[i], &partials[i]);
     sp_ranks_part(ranks_of(finding));
-    done = done && walk_all(finding, budgets, drafts, count);
+    done = done && walk_all(finding, budgets, partials, count);
     sp_ranks_rejoin(ranks_of(finding));
-    done = done && share_drafts(finding, drafts, count);
-    done = done && measure_all(finding, drafts, count);
-    for (size_t i = 0; drafts && i < count; i++)
-        sp_draft_free(&drafts[i]);
-    free(drafts);
+    done = done && share_partials(finding, partials, count);
+    done = done && measure_all(finding, partials, count);
+    for (size_t i = 0; partials && i < count; i++)
+        sp_partial_free(&partials[i]);
+    free(partials);
     return done;
 }
 
@@ -237,7 +238,7 @@ static double *densify(double *budgets, size_t *count)
     return dense;
 }
 
-/* What one nozzle of each make takes, in each of the mounts that cost differently; returns how many. */
+/* What one nozzle of each variant takes, in each of the mounts that cost differently; returns how many. */
 static size_t list_singles(const sp_search *search, double *budgets)
 {
     const sp_place_options *options = search->options;
@@ -246,19 +247,20 @@ static size_t list_singles(const sp_search *search, double *budgets)
         bool known = false;
         for (size_t i = 0; i < k; i++)
             known |= options->mounts[i].cost == options->mounts[k].cost;
-        for (size_t m = 0; !known && m < search->candidates->make_count; m++)
-            budgets[found++] = search->kept_flow + sp_outlay_at(search, (uint32_t)k, search->candidates->makes[m].flow);
+        for (size_t m = 0; !known && m < search->candidates->variant_count; m++)
+            budgets[found++] =
+                search->kept_flow + sp_outlay_at(search, (uint32_t)k, search->candidates->variants[m].flow);
     }
     return found;
 }
 
 /* The outlays at which the front is searched: what the greedy order used as it went, all that is allowed where that
- * falls short of the target, what one nozzle of each make takes, that of the scene's own layout, with which the
+ * falls short of the target, what one nozzle of each variant takes, that of the scene's own layout, with which the
  * proposal will be compared, and enough between. Rising; malloc'd, NULL when memory runs out. */
-static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, size_t *count)
+static double *list_budgets(const sp_finding *finding, const sp_partial *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
-    size_t singles = search->candidates->make_count * search->options->mount_count;
+    size_t singles = search->candidates->variant_count * search->options->mount_count;
     double *budgets = malloc((greedy->count + singles + 2) * sizeof *budgets);
     if (!budgets)
         return NULL;
@@ -279,7 +281,7 @@ static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, s
 }
 
 /* The front besides the best. */
-static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
+static bool fill_front(const sp_finding *finding, const sp_partial *greedy)
 {
     size_t count = 0;
     double *budgets = list_budgets(finding, greedy, &count);
@@ -287,25 +289,26 @@ static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
         return sp_fail_memory(finding->error);
     for (size_t i = 0; i < count; i++)
         budgets[i] *= 1 + SP_ROUNDING;
-    sp_table table = {0};
-    sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
-    bool done = guessed || sp_fail_memory(finding->error);
-    done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
-           sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
-    done = done && search_budgets(finding, greedy, guessed, budgets, count);
-    for (size_t i = 0; guessed && i < count; i++)
-        sp_lineup_free(&guessed[i]);
-    sp_table_free(&table);
-    free(guessed);
+    sp_coverage_matrix matrix = {0};
+    sp_lineup *enumerated = calloc(count + 1, sizeof *enumerated);
+    bool done = enumerated || sp_fail_memory(finding->error);
+    done = done && sp_coverage_matrix_create(finding->search, finding->pool, NULL, 0, &matrix, finding->error) &&
+           sp_enumerate_partially(&matrix, budgets, count, finding->deadline, enumerated, finding->error);
+    done = done && search_budgets(finding, greedy, enumerated, budgets, count);
+    for (size_t i = 0; enumerated && i < count; i++)
+        sp_lineup_free(&enumerated[i]);
+    sp_coverage_matrix_free(&matrix);
+    free(enumerated);
     free(budgets);
     return done;
 }
 
-static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
+static sp_finding finding_of(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                             sp_error *error)
 {
     bool most = front->objective == SP_OBJECTIVE_MAX_COVERAGE;
     return (sp_finding){.search = search,
-                        .watch = watch,
+                        .deadline = deadline,
                         .front = front,
                         .pool = pool,
                         .error = error,
@@ -313,29 +316,29 @@ static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front 
                         .budget = search->outlay_most * (1 + SP_ROUNDING)};
 }
 
-bool sp_find_first(const sp_search *search, double enough, sp_watch *watch, sp_front *front, sp_pool *pool,
-                   sp_draft *first, sp_error *error)
+bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                   sp_partial *first, sp_error *error)
 {
-    sp_finding finding = finding_of(search, watch, front, pool, error);
-    if (!sp_draft_create(search, first, error))
+    sp_finding finding = finding_of(search, deadline, front, pool, error);
+    if (!sp_partial_create(search, first, error))
         return false;
-    if (sp_front_measure(front, search, first, NULL, error) && first_draft(&finding, enough, first) &&
-        sp_watch_stage(watch, "greedy", error))
+    if (sp_front_measure(front, search, first, NULL, error) && first_partial(&finding, enough, first) &&
+        sp_deadline_stage(deadline, "greedy", error))
         return true;
-    sp_draft_free(first);
+    sp_partial_free(first);
     return false;
 }
 
-bool sp_find_more(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, const sp_draft *first,
-                  sp_error *error)
+bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                  const sp_partial *first, sp_error *error)
 {
-    sp_finding finding = finding_of(search, watch, front, pool, error);
+    sp_finding finding = finding_of(search, deadline, front, pool, error);
     bool done = true;
-    if (!sp_watch_goes_on(watch, "exchange", 0))
+    if (!sp_deadline_goes_on(deadline, "exchange", 0))
         return true;
-    for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
-        done = other_draft(&finding, i == 0 ? 0.5 : 0);
-    return done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, first) &&
-           sp_find_fewest(search, pool, first, finding.budget, watch, front, error) &&
-           sp_watch_stage(watch, "front", error);
+    for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
+        done = other_partial(&finding, i == 0 ? 0.5 : 0);
+    return done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
+           fill_front(&finding, first) && sp_find_fewest(search, pool, first, finding.budget, deadline, front, error) &&
+           sp_deadline_stage(deadline, "front", error);
 }

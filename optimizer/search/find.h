@@ -5,12 +5,12 @@
 #include "search/exchange.h"
 #include "search/front.h"
 
-/* Leaves the first draft, which reaches the target, or the share `enough` of it, if that is allowed, in *first, which
+/* Leaves the first layout, which reaches the target, or the share `enough` of it, if that is allowed, in *first, which
  * the caller frees, what it has measured in `front` and the poses worth another look in `pool`. */
-bool sp_find_first(const sp_search *search, double enough, sp_watch *watch, sp_front *front, sp_pool *pool,
-                   sp_draft *first, sp_error *error);
+bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                   sp_partial *first, sp_error *error);
 /* Finds better ones, and those for other amounts of water and numbers of nozzles. */
-bool sp_find_more(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, const sp_draft *first,
-                  sp_error *error);
+bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                  const sp_partial *first, sp_error *error);
 
 #endif

@@ -43,26 +43,26 @@ static double by_number(const sp_front_point *point)
     return (double)point->nozzles;
 }
 
-/* Enters the draft at its place by `key` unless some entry of no higher key covers as much, and drops what it betters.
+/* Enters the layout at its place by `key` unless some entry of no higher key covers as much, and drops what it betters.
  * What differs by round-off is equal. */
 static bool note(sp_front_list *list, double (*key)(const sp_front_point *), double tie, const sp_search *search,
-                 const sp_draft *draft, const sp_front_point *point, sp_error *error)
+                 const sp_partial *partial, const sp_front_point *point, sp_error *error)
 {
     size_t at = 0;
     while (at < list->count && key(&list->entries[at].point) <= key(point) * (1 + SP_ROUNDING))
         at++;
     if (at > 0 && list->entries[at - 1].point.area >= point->area - tie)
         return true;
-    sp_draft copy;
+    sp_partial copy;
     if (!sp_grow(&list->entries, &list->capacity, list->count + 1, sizeof *list->entries))
         return sp_fail_memory(error);
-    if (!sp_draft_copy(search, draft, &copy, error))
+    if (!sp_partial_copy(search, partial, &copy, error))
         return false;
     if (at > 0 && key(&list->entries[at - 1].point) * (1 + SP_ROUNDING) >= key(point))
         at--;
     size_t end = at;
     for (; end < list->count && list->entries[end].point.area <= point->area + tie; end++)
-        sp_draft_free(&list->entries[end].draft);
+        sp_partial_free(&list->entries[end].partial);
     memmove(&list->entries[at + 1], &list->entries[end], (list->count - end) * sizeof *list->entries);
     list->entries[at] = (sp_front_entry){*point, copy};
     list->count += at + 1 - end;
@@ -70,18 +70,18 @@ static bool note(sp_front_list *list, double (*key)(const sp_front_point *), dou
 }
 
 /* Nozzles that want a fitting made for them. */
-static size_t fittings_of(const sp_search *search, const sp_draft *draft)
+static size_t fittings_of(const sp_search *search, const sp_partial *partial)
 {
     size_t count = 0;
-    for (size_t i = 0; i < draft->count; i++)
-        count += search->options->mounts[draft->items[i].site.mount].kind != SP_MOUNT_PORT;
+    for (size_t i = 0; i < partial->count; i++)
+        count += search->options->mounts[partial->items[i].site.mount].kind != SP_MOUNT_PORT;
     return count;
 }
 
-static bool measure(const sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+static bool measure(const sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                     sp_error *error)
 {
-    sp_layout *layout = sp_draft_layout(search, draft, error);
+    sp_layout *layout = sp_partial_to_layout(search, partial, error);
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
     if (coverage)
         *point = (sp_front_point){.flow = coverage->flow,
@@ -90,27 +90,27 @@ static bool measure(const sp_front *front, const sp_search *search, const sp_dra
                                   .counted = NAN,
                                   .bound = NAN,
                                   .every_aim_bound = NAN,
-                                  .fittings = fittings_of(search, draft),
-                                  .outlay = coverage->flow + sp_draft_costs(search, draft)};
+                                  .fittings = fittings_of(search, partial),
+                                  .outlay = coverage->flow + sp_partial_costs(search, partial)};
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
     return done;
 }
 
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                       sp_error *error)
 {
     sp_front_point own = {.area = -1};
-    if (!sp_front_note(front, search, draft, &own, error))
+    if (!sp_front_note(front, search, partial, &own, error))
         return false;
     if (point)
         *point = own;
     return true;
 }
 
-bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_draft *const *drafts, size_t count,
-                            sp_front_point *points, sp_error *error)
+bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
+                            size_t count, sp_front_point *points, sp_error *error)
 {
     sp_ranks *ranks = search->options->run.ranks;
     sp_told told = {0};
@@ -119,8 +119,8 @@ bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, cons
     for (size_t i = 0; i < count; i++)
         points[i] = (sp_front_point){.area = -1};
     for (size_t i = 0; done && sp_ranks_count(ranks) > 1 && i < count; i++)
-        if (drafts[i] && sp_ranks_mine(ranks, i)) {
-            done = measure(front, search, drafts[i], &points[i], error);
+        if (partials[i] && sp_ranks_mine(ranks, i)) {
+            done = measure(front, search, partials[i], &points[i], error);
             sp_tell(&told, &points[i], sizeof points[i]);
         }
     if (!done)
@@ -128,28 +128,28 @@ bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, cons
     if (!done || !sp_ranks_gather(ranks, "points", &told, &heard, error))
         return false;
     for (size_t i = 0; i < count; i++)
-        if (drafts[i] && !sp_ranks_mine(ranks, i))
+        if (partials[i] && !sp_ranks_mine(ranks, i))
             sp_hear(&heard, sp_ranks_owner(ranks, i), &points[i], sizeof points[i]);
     sp_heard_free(&heard);
     return true;
 }
 
-bool sp_front_note(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                    sp_error *error)
 {
-    if ((point->area < 0 && !measure(front, search, draft, point, error)) ||
-        !note(&front->by_water, by_water, tie_of(front), search, draft, point, error) ||
-        !note(&front->by_number, by_number, tie_of(front), search, draft, point, error))
+    if ((point->area < 0 && !measure(front, search, partial, point, error)) ||
+        !note(&front->by_water, by_water, tie_of(front), search, partial, point, error) ||
+        !note(&front->by_number, by_number, tie_of(front), search, partial, point, error))
         return false;
     if (front->found && !sp_front_better(front, point, &front->measured))
         return true;
-    sp_draft copy;
-    if (!sp_draft_copy(search, draft, &copy, error))
+    sp_partial copy;
+    if (!sp_partial_copy(search, partial, &copy, error))
         return false;
-    sp_draft_free(&front->best);
+    sp_partial_free(&front->best);
     front->best = copy;
     front->measured = *point;
-    front->bias = point->area - draft->covered;
+    front->bias = point->area - partial->covered;
     front->found = true;
     return true;
 }
@@ -186,7 +186,7 @@ sp_front_point *sp_front_by_number(const sp_front *front, size_t *count, sp_erro
 static void list_free(sp_front_list *list)
 {
     for (size_t i = 0; i < list->count; i++)
-        sp_draft_free(&list->entries[i].draft);
+        sp_partial_free(&list->entries[i].partial);
     free(list->entries);
 }
 
@@ -194,6 +194,6 @@ void sp_front_free(sp_front *front)
 {
     list_free(&front->by_water);
     list_free(&front->by_number);
-    sp_draft_free(&front->best);
+    sp_partial_free(&front->best);
     *front = (sp_front){0};
 }

@@ -1,13 +1,13 @@
-/* What the search has found: drafts measured by the scene's own evaluator, and the fronts of coverage against water and
- * against number of nozzles. */
+/* What the search has found: layouts measured by the scene's own evaluator, and the fronts of coverage against water
+ * and against number of nozzles. */
 #ifndef OPTIMIZER_FRONT_H
 #define OPTIMIZER_FRONT_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 typedef struct {
     sp_front_point point;
-    sp_draft draft;
+    sp_partial partial;
 } sp_front_entry;
 
 /* What nothing measured betters with no more outlay, or no more nozzles: by rising outlay or number, all areas rising
@@ -23,28 +23,28 @@ typedef struct {
     double target; /* m² */
     sp_front_list by_water, by_number;
     bool found;
-    sp_draft best;           /* with what follows, the best measured yet by the objective */
+    sp_partial best;         /* with what follows, the best measured yet by the objective */
     sp_front_point measured; /* of it */
     double bias;             /* m² that the fine measure lies above the best one's coarse `covered` */
 } sp_front;
 
-/* The drafts of the front by water, then the best. */
-static inline const sp_draft *sp_front_draft(const sp_front *front, size_t i)
+/* The layouts of the front by water, then the best. */
+static inline const sp_partial *sp_front_partial(const sp_front *front, size_t i)
 {
-    return i < front->by_water.count ? &front->by_water.entries[i].draft : &front->best;
+    return i < front->by_water.count ? &front->by_water.entries[i].partial : &front->best;
 }
 
-/* True where a is better than b: by the objective among drafts that reach the target, by area among others. */
+/* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
-/* Measures the draft, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+/* Measures the layout, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                       sp_error *error);
-/* Of several ranks each measures some of the drafts, NULL for none, and notes nothing: points [count], of which those
+/* Of several ranks each measures some of the layouts, NULL for none, and notes nothing: points [count], of which those
  * that nobody has measured, and all where there is but one rank, have an area of -1. */
-bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_draft *const *drafts, size_t count,
-                            sp_front_point *points, sp_error *error);
+bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
+                            size_t count, sp_front_point *points, sp_error *error);
 /* As sp_front_measure, with what measuring ahead gave, if it gave anything. */
-bool sp_front_note(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                    sp_error *error);
 /* False where the next entry by water covers more with hardly more. */
 bool sp_front_counts(const sp_front *front, size_t i);

@@ -22,7 +22,8 @@ bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error)
 static int compare_poses(const void *a, const void *b)
 {
     const sp_pose *p = a, *q = b;
-    const uint32_t left[4] = {p->site, p->make, p->axis, p->roll}, right[4] = {q->site, q->make, q->axis, q->roll};
+    const uint32_t left[4] = {p->site, p->variant, p->axis, p->roll},
+                   right[4] = {q->site, q->variant, q->axis, q->roll};
     for (int i = 0; i < 4; i++)
         if (left[i] != right[i])
             return left[i] < right[i] ? -1 : 1;
@@ -47,7 +48,7 @@ void sp_pool_free(sp_pool *pool)
     *pool = (sp_pool){0};
 }
 
-/* The best pose of one mounting point and make in this round. */
+/* The best pose of one mounting point and variant in this round. */
 typedef struct {
     sp_pose pose;
     double merit; /* gain per outlay^power; 0: none */
@@ -59,7 +60,7 @@ typedef struct {
     double power, budget;
     double tie;          /* m² by which gains may differ that are equal */
     float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
-    sp_round_best *best; /* [sites x makes] */
+    sp_round_best *best; /* [sites x variants] */
     int threads;
     sp_sweeper *sweepers; /* [threads] */
     bool started;
@@ -72,9 +73,9 @@ static void forget_rooms(sp_rounds *rounds)
 }
 
 /* Credit is for what later nozzles complete: the last one gets none. */
-static bool is_last(const sp_search *search, const sp_draft *draft)
+static bool is_last(const sp_search *search, const sp_partial *partial)
 {
-    return search->options->max_nozzles && search->kept_count + draft->count + 1 >= search->options->max_nozzles;
+    return search->options->max_nozzles && search->kept_count + partial->count + 1 >= search->options->max_nozzles;
 }
 
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
@@ -86,7 +87,7 @@ static bool rounds_create(const sp_search *search, double power, double budget, 
                           .tie = SP_SCORE_TIE * search->all,
                           .threads = sp_sweeper_threads(search)};
     rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
-    rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
+    rounds->best = calloc(sites, search->candidates->variant_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
         return sp_fail_memory(error);
     forget_rooms(rounds);
@@ -101,7 +102,7 @@ static void rounds_free(sp_rounds *rounds)
     sp_sweepers_destroy(rounds->sweepers, rounds->threads);
 }
 
-/* The poses of a make that gained more than all before them, of those within a tie of the highest: the first of the
+/* The poses of a variant that gained more than all before them, of those within a tie of the highest: the first of the
  * equals is always among them. Where there are more than fit, the last makes room. */
 typedef struct {
     size_t count;
@@ -135,23 +136,24 @@ static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
 static double price_of(const sp_search *search, const sp_pose *pose, double power)
 {
     uint32_t mount = search->sites->items[pose->site].mount;
-    return pow(sp_outlay_at(search, mount, search->candidates->makes[pose->make].flow), power);
+    return pow(sp_outlay_at(search, mount, search->candidates->variants[pose->variant].flow), power);
 }
 
-static bool affords(const sp_search *search, const sp_draft *draft, uint32_t mount, size_t make, double budget)
+static bool affords(const sp_search *search, const sp_partial *partial, uint32_t mount, size_t variant, double budget)
 {
-    return sp_affords(search, draft->flow, draft->outlay, mount, search->candidates->makes[make].flow, budget);
+    return sp_affords(search, partial->flow, partial->outlay, mount, search->candidates->variants[variant].flow,
+                      budget);
 }
 
-/* Scores one site's poses of a make but those that cannot beat `least`, a merit that some pose of this round has. The
- * sweeper takes the make where that is needed. */
-static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, size_t number, double least)
+/* Scores one site's poses of a variant but those that cannot beat `least`, a merit that some pose of this round has.
+ * The sweeper takes the variant where that is needed. */
+static void scan_variant(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t variant, size_t number, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
-    const sp_make *own = &candidates->makes[make];
-    sp_round_best *best = &rounds->best[sweeper->site * candidates->make_count + make];
+    const sp_variant *own = &candidates->variants[variant];
+    sp_round_best *best = &rounds->best[sweeper->site * candidates->variant_count + variant];
     uint32_t mount = rounds->search->sites->items[sweeper->site].mount;
-    size_t axes = sp_candidates_axes(candidates, mount, make)->count;
+    size_t axes = sp_candidates_axes(candidates, mount, variant)->count;
     double price = pow(sp_outlay_at(rounds->search, mount, own->flow), rounds->power);
     bool taken = false;
     sp_rise rise = {0};
@@ -160,32 +162,32 @@ static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, siz
             if ((double)rounds->room[number] * (1 + 1e-6) + rounds->tie < least * price)
                 continue;
             if (!taken)
-                sp_sweeper_take(sweeper, make);
+                sp_sweeper_take(sweeper, variant);
             taken = true;
             sp_score score = sp_sweeper_score(sweeper, a, r, rise_least(&rise));
             rounds->room[number] = (float)score.room;
-            rise_note(&rise, (sp_pose){sweeper->site, make, a, r}, score.gain, rounds->tie);
+            rise_note(&rise, (sp_pose){sweeper->site, variant, a, r}, score.gain, rounds->tie);
         }
     if (rise.count)
         *best = (sp_round_best){rise.step[0].pose, rise.step[0].gain / price, rise.step[0].gain};
 }
 
-static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *sweeper, uint32_t site, double least)
+static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *sweeper, uint32_t site, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     uint32_t mount = rounds->search->sites->items[site].mount;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        rounds->best[site * candidates->make_count + k] = (sp_round_best){0};
-    if (!sp_draft_has_place(rounds->search, draft, mount))
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        rounds->best[site * candidates->variant_count + k] = (sp_round_best){0};
+    if (!sp_partial_has_place(rounds->search, partial, mount))
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
         size_t number = candidates->pose_start[site];
-        sp_sweeper_look(sweeper, rounds->search, draft, site, s);
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            if (make->launch == s && affords(rounds->search, draft, mount, k, rounds->budget))
-                scan_make(rounds, sweeper, (uint32_t)k, number, least);
-            number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
+        sp_sweeper_look(sweeper, rounds->search, partial, site, s);
+        for (size_t k = 0; k < candidates->variant_count; k++) {
+            const sp_variant *variant = &candidates->variants[k];
+            if (variant->launch == s && affords(rounds->search, partial, mount, k, rounds->budget))
+                scan_variant(rounds, sweeper, (uint32_t)k, number, least);
+            number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
     }
 }
@@ -197,10 +199,10 @@ static sp_ranks *ranks_of(const sp_rounds *rounds)
 
 /* A merit that this round surely reaches: that of the last round's best poses, scored again, each rank those of its own
  * sites. */
-static double round_floor(sp_rounds *rounds, const sp_draft *draft)
+static double round_floor(sp_rounds *rounds, const sp_partial *partial)
 {
     const sp_search *search = rounds->search;
-    size_t count = search->sites->count * search->candidates->make_count;
+    size_t count = search->sites->count * search->candidates->variant_count;
     double least = 0;
     int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(max : least)
@@ -209,11 +211,11 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
         if (best->merit <= 0 || !sp_ranks_mine(ranks_of(rounds), best->pose.site))
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
-        if (!affords(search, draft, mount, best->pose.make, rounds->budget) ||
-            !sp_draft_has_place(search, draft, mount))
+        if (!affords(search, partial, mount, best->pose.variant, rounds->budget) ||
+            !sp_partial_has_place(search, partial, mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, draft, best->pose, 0).gain;
+        double gain = sp_score_pose(sweeper, search, partial, best->pose, 0).gain;
         least = fmax(least, gain / price_of(search, &best->pose, rounds->power));
     }
     return least;
@@ -222,43 +224,43 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
 /* The best poses of the others' sites. */
 static bool share_bests(sp_rounds *rounds, sp_error *error)
 {
-    size_t makes = rounds->search->candidates->make_count, count = rounds->search->sites->count * makes;
+    size_t variants = rounds->search->candidates->variant_count, count = rounds->search->sites->count * variants;
     sp_told told = {0};
     sp_heard heard;
     for (size_t i = 0; i < count; i++)
-        if (sp_ranks_mine(ranks_of(rounds), i / makes))
+        if (sp_ranks_mine(ranks_of(rounds), i / variants))
             sp_tell(&told, &rounds->best[i], sizeof rounds->best[i]);
     if (!sp_ranks_gather(ranks_of(rounds), "round", &told, &heard, error))
         return false;
     for (size_t i = 0; i < count; i++)
-        if (!sp_ranks_mine(ranks_of(rounds), i / makes))
-            sp_hear(&heard, sp_ranks_owner(ranks_of(rounds), i / makes), &rounds->best[i], sizeof rounds->best[i]);
+        if (!sp_ranks_mine(ranks_of(rounds), i / variants))
+            sp_hear(&heard, sp_ranks_owner(ranks_of(rounds), i / variants), &rounds->best[i], sizeof rounds->best[i]);
     sp_heard_free(&heard);
     return true;
 }
 
 /* Each rank scans its own sites, whose rooms it alone knows. */
-static bool scan(sp_rounds *rounds, const sp_draft *draft, sp_error *error)
+static bool scan(sp_rounds *rounds, const sp_partial *partial, sp_error *error)
 {
-    double least = rounds->started ? round_floor(rounds, draft) : 0;
+    double least = rounds->started ? round_floor(rounds, partial) : 0;
     if (!sp_ranks_highest(ranks_of(rounds), "floor", &least, 1, error))
         return false;
     rounds->started = true;
     size_t sites = rounds->search->sites->count;
-    memset(rounds->best, 0, sites * rounds->search->candidates->make_count * sizeof *rounds->best);
+    memset(rounds->best, 0, sites * rounds->search->candidates->variant_count * sizeof *rounds->best);
     int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(rounds), i))
-            scan_site(rounds, draft, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+            scan_site(rounds, partial, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
     return share_bests(rounds, error);
 }
 
-/* Of the first round every site's and make's best is remembered, of later ones the best few. */
+/* Of the first round every site's and variant's best is remembered, of later ones the best few. */
 static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_error *error)
 {
-    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    size_t count = rounds->search->sites->count * rounds->search->candidates->variant_count;
     sp_ranked *sorted = malloc(count * sizeof *sorted);
     if (!sorted)
         return sp_fail_memory(error);
@@ -276,7 +278,7 @@ static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_erro
 
 static const sp_round_best *round_best(const sp_rounds *rounds)
 {
-    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    size_t count = rounds->search->sites->count * rounds->search->candidates->variant_count;
     double most = 0;
     for (size_t i = 0; i < count; i++)
         most = fmax(most, rounds->best[i].merit);
@@ -288,8 +290,8 @@ static const sp_round_best *round_best(const sp_rounds *rounds)
     return &rounds->best[0];
 }
 
-bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
-               sp_pool *pool, sp_error *error)
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
+               sp_partial *partial, sp_pool *pool, sp_error *error)
 {
     sp_rounds rounds;
     double least = GAIN_LEAST * search->all;
@@ -298,18 +300,18 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     sp_search exact = *search;
     exact.credit = 0;
     /* out of time there is at least one nozzle to show */
-    while (done && draft->covered < target &&
-           (sp_watch_goes_on(watch, "greedy", fmin(1, draft->covered / target)) ||
-            (first && !draft->count && !watch->cancelled))) {
-        if (is_last(search, draft) && rounds.search != &exact) {
+    while (done && partial->covered < target &&
+           (sp_deadline_goes_on(deadline, "greedy", fmin(1, partial->covered / target)) ||
+            (first && !partial->count && !deadline->cancelled))) {
+        if (is_last(search, partial) && rounds.search != &exact) {
             rounds.search = &exact;
             forget_rooms(&rounds);
         }
-        done = scan(&rounds, draft, error);
+        done = scan(&rounds, partial, error);
         const sp_round_best *best = round_best(&rounds);
         if (!done || best->merit <= 0 || best->gain < least)
             break;
-        done = remember(&rounds, first, pool, error) && sp_draft_add_pose(search, draft, best->pose, error);
+        done = remember(&rounds, first, pool, error) && sp_partial_add_pose(search, partial, best->pose, error);
         first = false;
     }
     rounds_free(&rounds);
@@ -365,8 +367,8 @@ static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench 
 
 /* Scores all of the pool, each rank the poses of its own sites, exactly where they may be the best or equal to it;
  * `least` as sp_pool_best's. */
-static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                       double least, sp_bench *bench, sp_error *error)
+static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power,
+                       double budget, double least, sp_bench *bench, sp_error *error)
 {
     double tie = SP_SCORE_TIE * search->all;
 #pragma omp parallel num_threads(bench->threads)
@@ -381,8 +383,9 @@ static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
                 continue;
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
             uint32_t mount = search->sites->items[pose.site].mount;
-            bool allowed = affords(search, draft, mount, pose.make, budget) && sp_draft_has_place(search, draft, mount);
-            double gain = allowed ? sp_score_pose(sweeper, search, draft, pose, enough).gain : 0;
+            bool allowed =
+                affords(search, partial, mount, pose.variant, budget) && sp_partial_has_place(search, partial, mount);
+            double gain = allowed ? sp_score_pose(sweeper, search, partial, pose, enough).gain : 0;
             bench->scores[i] = gain >= enough ? gain : 0;
             merit = fmax(merit, bench->scores[i] / price);
         }
@@ -391,13 +394,13 @@ static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
     return share_scores(search, pool, bench, error);
 }
 
-bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power, double budget,
                   double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error)
 {
     const double *scores = bench->scores;
     double merit = 0, tie = SP_SCORE_TIE * search->all;
     *gain = 0;
-    if (!score_pool(search, pool, draft, power, budget, least, bench, error))
+    if (!score_pool(search, pool, partial, power, budget, least, bench, error))
         return false;
     for (size_t i = 0; i < pool->count; i++)
         merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
@@ -411,17 +414,17 @@ bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_bench *bench, sp_draft *draft, sp_error *error)
+                    sp_bench *bench, sp_partial *partial, sp_error *error)
 {
     double least = GAIN_LEAST * search->all;
     bool done = true;
-    while (done && draft->covered < target) {
+    while (done && partial->covered < target) {
         sp_pose pose;
         double gain;
-        done = sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose, &gain, error);
+        done = sp_pool_best(search, pool, partial, power, budget, 0, bench, &pose, &gain, error);
         if (!done || gain < least)
             break;
-        done = sp_draft_add_pose(search, draft, pose, error);
+        done = sp_partial_add_pose(search, partial, pose, error);
     }
     return done;
 }

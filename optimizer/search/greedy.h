@@ -4,7 +4,8 @@
 
 #include "scoring/scoring.h"
 
-/* Poses that were among the best of their mounting point and make at some moment of the search; ascending, distinct. */
+/* Poses that were among the best of their mounting point and variant at some moment of the search; ascending, distinct.
+ */
 typedef struct {
     size_t count, capacity;
     sp_pose *items;
@@ -25,17 +26,17 @@ typedef struct {
 bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error);
 void sp_bench_free(sp_bench *bench);
 
-/* Adds nozzles to the draft, each the pose of most gain per outlay^power, the first of equals, until it covers `target`
- * (m² of coarse patches) or nothing more is gained or allowed within an outlay of `budget` (m³/s). The poses that came
- * near go to `pool`. */
-bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
-               sp_pool *pool, sp_error *error);
+/* Adds nozzles to the partial layout, each the pose of most gain per outlay^power, the first of equals, until it covers
+ * `target` (m² of coarse patches) or nothing more is gained or allowed within an outlay of `budget` (m³/s). The poses
+ * that came near go to `pool`. */
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
+               sp_partial *partial, sp_pool *pool, sp_error *error);
 /* The same over the pool's poses alone. */
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_bench *bench, sp_draft *draft, sp_error *error);
-/* The pool's pose of most gain per outlay^power, the first of equals, that the draft may still take within the budget;
- * *gain in m², 0 for none that gains at least `least`. */
-bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                    sp_bench *bench, sp_partial *partial, sp_error *error);
+/* The pool's pose of most gain per outlay^power, the first of equals, that the partial layout may still take within the
+ * budget; *gain in m², 0 for none that gains at least `least`. */
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power, double budget,
                   double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error);
 
 #endif

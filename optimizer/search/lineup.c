@@ -8,15 +8,15 @@
 #define ROUNDS_MOST 4
 #define WORTHS 64 /* fields that are gone through at a time */
 
-bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
+bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error)
 {
-    *lineup = (sp_lineup){.table = table,
-                          .hit = malloc((table->patch_count + 1) * sizeof *lineup->hit),
-                          .dry = malloc((table->patch_count + 1) * sizeof *lineup->dry),
-                          .gain = malloc((table->row_count + 1) * sizeof *lineup->gain)};
-    lineup->film = table->kept_film ? malloc((table->patch_count + 1) * sizeof *lineup->film) : NULL;
-    lineup->wet = table->kept_film ? malloc((table->patch_count + 1) * sizeof *lineup->wet) : lineup->hit;
-    if (!lineup->hit || !lineup->wet || !lineup->dry || !lineup->gain || (table->kept_film && !lineup->film)) {
+    *lineup = (sp_lineup){.matrix = matrix,
+                          .hit = malloc((matrix->patch_count + 1) * sizeof *lineup->hit),
+                          .dry = malloc((matrix->patch_count + 1) * sizeof *lineup->dry),
+                          .gain = malloc((matrix->row_count + 1) * sizeof *lineup->gain)};
+    lineup->film = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->film) : NULL;
+    lineup->wet = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->wet) : lineup->hit;
+    if (!lineup->hit || !lineup->wet || !lineup->dry || !lineup->gain || (matrix->kept_film && !lineup->film)) {
         sp_lineup_free(lineup);
         return sp_fail_memory(error);
     }
@@ -38,35 +38,35 @@ void sp_lineup_free(sp_lineup *lineup)
 static void count_covered(sp_lineup *lineup)
 {
     lineup->covered = 0;
-    for (size_t p = 0; p < lineup->table->patch_count; p++)
-        lineup->covered += (double)(lineup->table->area[p] * sp_covered(lineup->wet[p], lineup->dry[p]));
-    lineup->covered *= lineup->table->search->all;
+    for (size_t p = 0; p < lineup->matrix->patch_count; p++)
+        lineup->covered += (double)(lineup->matrix->area[p] * sp_covered(lineup->wet[p], lineup->dry[p]));
+    lineup->covered *= lineup->matrix->search->all;
 }
 
 static void pour(sp_lineup *lineup, uint32_t row)
 {
-    const sp_table *table = lineup->table;
-    lineup->flow += sp_table_flow(table, row);
-    lineup->outlay += sp_table_outlay(table, row);
-    for (size_t i = table->start[row]; i < table->start[row + 1]; i++)
-        sp_pour(table->search, table->field[i], &lineup->hit[table->patch[i]], &lineup->dry[table->patch[i]]);
-    for (size_t i = table->start[row]; table->film && i < table->start[row + 1]; i++) {
-        uint32_t p = table->patch[i];
-        lineup->film[p] += table->film[i];
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    lineup->flow += sp_coverage_matrix_flow(matrix, row);
+    lineup->outlay += sp_coverage_matrix_outlay(matrix, row);
+    for (size_t i = matrix->start[row]; i < matrix->start[row + 1]; i++)
+        sp_pour(matrix->search, matrix->field[i], &lineup->hit[matrix->patch[i]], &lineup->dry[matrix->patch[i]]);
+    for (size_t i = matrix->start[row]; matrix->film && i < matrix->start[row + 1]; i++) {
+        uint32_t p = matrix->patch[i];
+        lineup->film[p] += matrix->film[i];
         lineup->wet[p] = fmaxf(lineup->hit[p], lineup->film[p]);
     }
 }
 
 void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
 {
-    const sp_table *table = lineup->table;
-    memcpy(lineup->hit, table->kept_hit, table->patch_count * sizeof *lineup->hit);
-    for (size_t p = 0; table->kept_film && p < table->patch_count; p++) {
-        lineup->film[p] = table->kept_film[p];
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    memcpy(lineup->hit, matrix->kept_hit, matrix->patch_count * sizeof *lineup->hit);
+    for (size_t p = 0; matrix->kept_film && p < matrix->patch_count; p++) {
+        lineup->film[p] = matrix->kept_film[p];
         lineup->wet[p] = fmaxf(lineup->hit[p], lineup->film[p]);
     }
-    memcpy(lineup->dry, table->kept_dry, table->patch_count * sizeof *lineup->dry);
-    lineup->flow = lineup->outlay = table->search->kept_flow;
+    memcpy(lineup->dry, matrix->kept_dry, matrix->patch_count * sizeof *lineup->dry);
+    lineup->flow = lineup->outlay = matrix->search->kept_flow;
     lineup->count = count;
     for (size_t i = 0; i < count; i++) {
         lineup->row[i] = rows[i];
@@ -93,26 +93,26 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i)
 
 static bool has_place(const sp_lineup *lineup, size_t row)
 {
-    const sp_table *table = lineup->table;
-    const sp_place_options *options = table->search->options;
-    uint32_t mount = sp_table_mount(table, row);
-    size_t room = table->search->port_taken[mount] ? 0 : sp_mount_room(&options->mounts[mount]);
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    const sp_place_options *options = matrix->search->options;
+    uint32_t mount = sp_coverage_matrix_mount(matrix, row);
+    size_t room = matrix->search->port_taken[mount] ? 0 : sp_mount_room(&options->mounts[mount]);
     for (size_t i = 0; room > 0 && room <= lineup->count && i < lineup->count; i++)
-        room -= sp_table_mount(table, lineup->row[i]) == mount;
+        room -= sp_coverage_matrix_mount(matrix, lineup->row[i]) == mount;
     return room > 0;
 }
 
 static bool affords(const sp_lineup *lineup, size_t row, double budget)
 {
-    const sp_table *table = lineup->table;
-    return sp_affords(table->search, lineup->flow, lineup->outlay, sp_table_mount(table, row),
-                      sp_table_flow(table, row), budget);
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    return sp_affords(matrix->search, lineup->flow, lineup->outlay, sp_coverage_matrix_mount(matrix, row),
+                      sp_coverage_matrix_flow(matrix, row), budget);
 }
 
 static bool has_number(const sp_lineup *lineup)
 {
-    size_t limit = lineup->table->search->options->max_nozzles;
-    return lineup->count < SP_LINEUP_MOST && (!limit || lineup->table->search->kept_count + lineup->count < limit);
+    size_t limit = lineup->matrix->search->options->max_nozzles;
+    return lineup->count < SP_LINEUP_MOST && (!limit || lineup->matrix->search->kept_count + lineup->count < limit);
 }
 
 /* What a field's value adds to a patch that is not wet yet, per m²; without a branch, for many at a time. */
@@ -145,74 +145,74 @@ static inline float more_worth_of_both(bool single, float credit, left_over at, 
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
 {
-    const sp_table *table = lineup->table;
+    const sp_coverage_matrix *matrix = lineup->matrix;
     double gain = 0;
-    for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
-        uint32_t p = table->patch[i];
+    for (size_t i = matrix->start[row]; i < matrix->start[row + 1]; i++) {
+        uint32_t p = matrix->patch[i];
         if (lineup->wet[p] >= SP_ENOUGH)
             continue;
-        bool single = table->search->single;
-        float worth = table->film ? more_worth_of_both(single, credit, left_at(lineup, credit, p), table->field[i],
-                                                       table->film[i])
-                                  : more_worth(single, credit, lineup->wet[p], lineup->dry[p], table->field[i]);
-        gain += (double)(table->area[p] * worth);
+        bool single = matrix->search->single;
+        float worth = matrix->film ? more_worth_of_both(single, credit, left_at(lineup, credit, p), matrix->field[i],
+                                                        matrix->film[i])
+                                   : more_worth(single, credit, lineup->wet[p], lineup->dry[p], matrix->field[i]);
+        gain += (double)(matrix->area[p] * worth);
     }
-    return gain * table->search->all;
+    return gain * matrix->search->all;
 }
 
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
 {
     bool fits = has_number(lineup) && has_place(lineup, row) && affords(lineup, row, budget);
-    return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
+    return fits ? gain_of(lineup, row, lineup->matrix->search->credit) : 0;
 }
 
 /* What every row gains, as a share of all. Patch by patch: most patches are wet already when the last rows are chosen.
  */
 static void set_gains(sp_lineup *lineup, float credit)
 {
-    const sp_table *table = lineup->table;
-    bool single = table->search->single;
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    bool single = matrix->search->single;
     float worth[WORTHS];
-    memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
-    for (size_t p = 0; p < table->patch_count; p++) {
-        float had = lineup->wet[p], dry = lineup->dry[p], area = table->area[p];
-        left_over at = table->film ? left_at(lineup, credit, p) : (left_over){0};
-        size_t end = table->column_start[p + 1];
-        for (size_t i = table->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
+    memset(lineup->gain, 0, matrix->row_count * sizeof *lineup->gain);
+    for (size_t p = 0; p < matrix->patch_count; p++) {
+        float had = lineup->wet[p], dry = lineup->dry[p], area = matrix->area[p];
+        left_over at = matrix->film ? left_at(lineup, credit, p) : (left_over){0};
+        size_t end = matrix->column_start[p + 1];
+        for (size_t i = matrix->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
             size_t count = end - i < WORTHS ? end - i : WORTHS;
-            const uint32_t *row = &table->column_row[i];
-            for (size_t k = 0; !table->film && k < count; k++)
-                worth[k] = area * more_worth(single, credit, had, dry, table->column_field[i + k]);
-            for (size_t k = 0; table->film && k < count; k++)
-                worth[k] = area * more_worth_of_both(single, credit, at, table->column_field[i + k],
-                                                     table->column_film[i + k]);
+            const uint32_t *row = &matrix->column_row[i];
+            for (size_t k = 0; !matrix->film && k < count; k++)
+                worth[k] = area * more_worth(single, credit, had, dry, matrix->column_field[i + k]);
+            for (size_t k = 0; matrix->film && k < count; k++)
+                worth[k] = area * more_worth_of_both(single, credit, at, matrix->column_field[i + k],
+                                                     matrix->column_film[i + k]);
             for (size_t k = 0; k < count; k++)
                 lineup->gain[row[k]] += (double)worth[k];
         }
     }
 }
 
-static double price_of(const sp_table *table, size_t row, double power)
+static double price_of(const sp_coverage_matrix *matrix, size_t row, double power)
 {
-    return power == 0 ? 1 : pow(sp_table_outlay(table, row), power);
+    return power == 0 ? 1 : pow(sp_coverage_matrix_outlay(matrix, row), power);
 }
 
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
 {
-    const sp_table *table = lineup->table;
+    const sp_coverage_matrix *matrix = lineup->matrix;
     double merit = 0;
     *gain = 0;
     if (!has_number(lineup))
         return 0;
     set_gains(lineup, credit);
-    for (size_t r = 0; r < table->row_count; r++) {
+    for (size_t r = 0; r < matrix->row_count; r++) {
         if (!affords(lineup, r, budget) || !has_place(lineup, r))
             lineup->gain[r] = 0;
-        merit = fmax(merit, lineup->gain[r] / price_of(table, r, power));
+        merit = fmax(merit, lineup->gain[r] / price_of(matrix, r, power));
     }
-    for (size_t r = 0; merit > 0 && r < table->row_count; r++)
-        if (lineup->gain[r] > 0 && lineup->gain[r] + SP_SCORE_TIE >= merit * price_of(table, r, power)) {
-            *gain = lineup->gain[r] * table->search->all;
+    for (size_t r = 0; merit > 0 && r < matrix->row_count; r++)
+        if (lineup->gain[r] > 0 && lineup->gain[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power)) {
+            *gain = lineup->gain[r] * matrix->search->all;
             return (uint32_t)r;
         }
     return 0;
@@ -220,7 +220,7 @@ uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double bu
 
 static double least_gain(const sp_lineup *lineup)
 {
-    return GAIN_LEAST * lineup->table->search->all;
+    return GAIN_LEAST * lineup->matrix->search->all;
 }
 
 static void fill(sp_lineup *lineup, float credit, double budget)
@@ -254,8 +254,8 @@ static bool exchange(sp_lineup *lineup, float credit, double budget)
 void sp_lineup_improve(sp_lineup *lineup, double budget)
 {
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
-    const float credits[] = {lineup->table->search->credit, 0};
-    for (size_t i = lineup->table->search->credit > 0 ? 0 : 1; i < 2; i++)
+    const float credits[] = {lineup->matrix->search->credit, 0};
+    for (size_t i = lineup->matrix->search->credit > 0 ? 0 : 1; i < 2; i++)
         for (int sweep = 0; sweep < SWEEPS_MOST; sweep++) {
             fill(lineup, credits[i], budget);
             if (!exchange(lineup, credits[i], budget))
@@ -280,25 +280,25 @@ bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget)
 }
 
 /* How much of what a patch needs an entry brings. */
-static float amount(const sp_table *table, size_t entry)
+static float amount(const sp_coverage_matrix *matrix, size_t entry)
 {
-    float field = fabsf(table->field[entry]);
-    return table->film ? fmaxf(field, table->film[entry]) : field;
+    float field = fabsf(matrix->field[entry]);
+    return matrix->film ? fmaxf(field, matrix->film[entry]) : field;
 }
 
 /* The row whose liquid falls, or runs, most where row i's does. */
 static size_t nearest(const sp_lineup *lineup, size_t i)
 {
-    const sp_table *table = lineup->table;
+    const sp_coverage_matrix *matrix = lineup->matrix;
     size_t near = i;
     double most = -1; /* share of all */
     for (size_t k = 0; k < lineup->count; k++) {
-        size_t a = table->start[lineup->row[i]], b = table->start[lineup->row[k]];
+        size_t a = matrix->start[lineup->row[i]], b = matrix->start[lineup->row[k]];
         double shared = 0;
-        while (k != i && a < table->start[lineup->row[i] + 1] && b < table->start[lineup->row[k] + 1]) {
-            uint32_t p = table->patch[a], q = table->patch[b];
+        while (k != i && a < matrix->start[lineup->row[i] + 1] && b < matrix->start[lineup->row[k] + 1]) {
+            uint32_t p = matrix->patch[a], q = matrix->patch[b];
             if (p == q)
-                shared += (double)(table->area[p] * fminf(1, fminf(amount(table, a), amount(table, b))));
+                shared += (double)(matrix->area[p] * fminf(1, fminf(amount(matrix, a), amount(matrix, b))));
             a += p <= q;
             b += q <= p;
         }

@@ -1,26 +1,26 @@
-/* Layouts made of a table's rows, searched on its sample of the patches by the exact objective: greedy after guessed
- * first nozzles, single exchanges, merges and neighbours placed anew. */
+/* Layouts made of rows of a coverage matrix, searched on its sample of the patches by the exact objective: greedy after
+ * enumerated first nozzles, single exchanges, merges and neighbours placed anew. */
 #ifndef OPTIMIZER_LINEUP_H
 #define OPTIMIZER_LINEUP_H
 
-#include "search/table.h"
+#include "search/coverage_matrix.h"
 
-#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for in tables */
+#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for so */
 
 typedef struct {
-    const sp_table *table;
+    const sp_coverage_matrix *matrix;
     size_t count;
     uint32_t row[SP_LINEUP_MOST];
     double flow;                   /* m³/s, kept nozzles included */
     double outlay;                 /* m³/s, the same with what the mounts cost */
     double covered;                /* m² of the sample */
-    float *hit, *film, *wet, *dry; /* [table->patch_count], as sp_draft's */
-    double *gain;                  /* [table->row_count], scratch */
+    float *hit, *film, *wet, *dry; /* [matrix->patch_count], as sp_partial's */
+    double *gain;                  /* [matrix->row_count], scratch */
 } sp_lineup;
 
-bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error);
+bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error);
 void sp_lineup_free(sp_lineup *lineup);
-/* Takes these rows, of the same table. */
+/* Takes these rows, of the same matrix. */
 void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count);
 void sp_lineup_add(sp_lineup *lineup, uint32_t row);
 void sp_lineup_remove(sp_lineup *lineup, size_t i);
@@ -37,7 +37,7 @@ bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget);
 /* Adds what the budget allows and exchanges one row at a time, until neither helps. */
 void sp_lineup_improve(sp_lineup *lineup, double budget);
 /* Takes two that overlap most out, fills their place anew, by a merge or by gain per outlay, and improves what comes of
- * it, as long as that helps. `trial` is scratch of the same table. */
+ * it, as long as that helps. `trial` is scratch of the same matrix. */
 void sp_lineup_regroup(sp_lineup *lineup, double budget, sp_lineup *trial);
 
 #endif

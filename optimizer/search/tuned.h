@@ -4,17 +4,17 @@
 
 #include "search/greedy.h"
 
-/* The search over the pool's poses, those of adjustable makes at several flows each. What is built of them says its
+/* The search over the pool's poses, those of adjustable variants at several flows each. What is built of them says its
  * flows itself, so that it belongs to the original search as well. */
 typedef struct {
-    sp_candidates candidates; /* the original's makes first; poses are not numbered */
+    sp_candidates candidates; /* the original's variants first; poses are not numbered */
     sp_search search;
     sp_pool pool;
 } sp_tuned;
 
 bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tuned, sp_error *error);
 void sp_tuned_free(sp_tuned *tuned);
-/* Writes the flows of poses that were added to a draft into their nozzles. */
-void sp_tuned_settle(const sp_tuned *tuned, sp_draft *draft);
+/* Writes the flows of poses that were added to a partial layout into their nozzles. */
+void sp_tuned_settle(const sp_tuned *tuned, sp_partial *partial);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define SITES 3          /* mounting points that are looked at for one nozzle, each with one make */
+#define SITES 3          /* mounting points that are looked at for one nozzle, each with one variant */
 #define POSES 24         /* of each */
 #define MISSES 3         /* times that none of these gains, before a layout counts as full */
 #define HOT 3e-3         /* of the area: the loss that is taken in one of e cases, at first */
@@ -19,7 +19,7 @@ typedef struct {
     double budget, area;
     uint64_t state;
     sp_sweeper *sweeper;
-    sp_draft *draft;
+    sp_partial *partial;
     sp_error *error;
 } sp_walker;
 
@@ -43,19 +43,19 @@ typedef struct {
     double merit; /* gain per outlay^power; 0: none */
 } sp_walk_choice;
 
-/* Some of the poses of one make at one mounting point. */
-static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, sp_walk_choice *best)
+/* Some of the poses of one variant at one mounting point. */
+static void look(sp_walker *walker, uint32_t site, uint32_t variant, double power, sp_walk_choice *best)
 {
     const sp_candidates *candidates = walker->search->candidates;
-    const sp_make *own = &candidates->makes[make];
+    const sp_variant *own = &candidates->variants[variant];
     uint32_t mount = walker->search->sites->items[site].mount;
-    size_t poses = own->roll_count * sp_candidates_axes(candidates, mount, make)->count;
+    size_t poses = own->roll_count * sp_candidates_axes(candidates, mount, variant)->count;
     double price = pow(sp_outlay_at(walker->search, mount, own->flow), power);
     for (size_t i = 0; i < POSES && i < poses; i++) {
         size_t at = poses > POSES ? draw(walker, poses) : i;
-        sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
+        sp_pose pose = {site, variant, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double least = fmax(GAIN_LEAST * walker->area, best->merit * price);
-        double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose, least).gain;
+        double gain = sp_score_pose(walker->sweeper, walker->search, walker->partial, pose, least).gain;
         if (gain > GAIN_LEAST * walker->area && (gain - SP_SCORE_TIE * walker->area) / price > best->merit)
             *best = (sp_walk_choice){pose, gain / price};
     }
@@ -68,16 +68,16 @@ static bool add(sp_walker *walker, uint32_t near, double power, bool *added)
     sp_walk_choice best = {.merit = 0};
     for (int i = 0; i < SITES; i++) {
         uint32_t site = uniform(walker) < NEAR_SHARE ? near : (uint32_t)draw(walker, search->sites->count);
-        uint32_t make = (uint32_t)draw(walker, search->candidates->make_count);
+        uint32_t variant = (uint32_t)draw(walker, search->candidates->variant_count);
         uint32_t mount = search->sites->items[site].mount;
-        if (sp_affords(search, walker->draft->flow, walker->draft->outlay, mount, search->candidates->makes[make].flow,
-                       walker->budget) &&
-            sp_draft_has_place(search, walker->draft, mount))
-            look(walker, site, make, power, &best);
+        if (sp_affords(search, walker->partial->flow, walker->partial->outlay, mount,
+                       search->candidates->variants[variant].flow, walker->budget) &&
+            sp_partial_has_place(search, walker->partial, mount))
+            look(walker, site, variant, power, &best);
     }
     sp_sweepers_forget(walker->sweeper, 1);
     *added = best.merit > 0;
-    return !*added || sp_draft_add_pose(search, walker->draft, best.pose, walker->error);
+    return !*added || sp_partial_add_pose(search, walker->partial, best.pose, walker->error);
 }
 
 /* The mounting point nearest to where a nozzle is, which refinement may have moved. */
@@ -107,51 +107,51 @@ static bool refill(sp_walker *walker, uint32_t near)
 static bool step(sp_walker *walker, double temperature)
 {
     const sp_search *search = walker->search;
-    sp_draft *draft = walker->draft;
-    double before = draft->value;
-    size_t wanted = 1 + (uniform(walker) < TWO_SHARE), removed = wanted < draft->count ? wanted : draft->count;
-    size_t left = draft->count - removed;
+    sp_partial *partial = walker->partial;
+    double before = partial->value;
+    size_t wanted = 1 + (uniform(walker) < TWO_SHARE), removed = wanted < partial->count ? wanted : partial->count;
+    size_t left = partial->count - removed;
     uint32_t near = 0;
     sp_placed out[2];
     for (size_t i = 0; i < removed; i++) {
-        out[i] = sp_draft_take(search, draft, draw(walker, draft->count));
+        out[i] = sp_partial_take(search, partial, draw(walker, partial->count));
         near = site_of(search->sites, &out[i]);
     }
     bool done = refill(walker, near);
-    if (done && draft->value >= before + temperature * log(1 - uniform(walker))) {
+    if (done && partial->value >= before + temperature * log(1 - uniform(walker))) {
         for (size_t i = 0; i < removed; i++)
             free(out[i].field);
         return true;
     }
-    while (draft->count > left)
-        sp_draft_remove(search, draft, draft->count - 1);
+    while (partial->count > left)
+        sp_partial_remove(search, partial, partial->count - 1);
     for (size_t i = 0; i < removed; i++)
-        done = sp_draft_add(search, draft, out[i], walker->error) && done;
+        done = sp_partial_add(search, partial, out[i], walker->error) && done;
     return done;
 }
 
-/* Takes the draft over where it covers more than the best. */
-static bool keep(const sp_walker *walker, sp_draft *best)
+/* Takes the partial layout over where it covers more than the best. */
+static bool keep(const sp_walker *walker, sp_partial *best)
 {
-    sp_draft copy;
-    if (walker->draft->covered <= best->covered + SP_TIE * walker->area)
+    sp_partial copy;
+    if (walker->partial->covered <= best->covered + SP_TIE * walker->area)
         return true;
-    if (!sp_draft_copy(walker->search, walker->draft, &copy, walker->error))
+    if (!sp_partial_copy(walker->search, walker->partial, &copy, walker->error))
         return false;
-    sp_draft_free(best);
+    sp_partial_free(best);
     *best = copy;
     return true;
 }
 
-static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_watch *watch, sp_draft *best)
+static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_deadline *deadline, sp_partial *best)
 {
     double nozzles = (double)(best->count + 1);
     double steps = effort / (STEP_EFFORT * (double)walker->search->patch_count * nozzles);
     steps = fmin(ceil(steps), STEPS_MOST * nozzles);
-    for (double i = 0; i < steps && sp_watch_goes_on(watch, "front", 0); i++) {
+    for (double i = 0; i < steps && sp_deadline_goes_on(deadline, "front", 0); i++) {
         if (walker->search != exact && i >= CREDIT_SHARE * steps) {
             walker->search = exact;
-            sp_draft_refresh(exact, walker->draft);
+            sp_partial_refresh(exact, walker->partial);
         }
         if (!step(walker, walker->area * HOT * pow(COLD / HOT, i / steps)) || !keep(walker, best))
             return false;
@@ -159,24 +159,24 @@ static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_wa
     return true;
 }
 
-bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
-             sp_error *error)
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_deadline *deadline,
+             sp_partial *partial, sp_error *error)
 {
     sp_search exact = *search;
     exact.credit = 0;
-    sp_draft moving;
-    if (!sp_draft_copy(search, draft, &moving, error))
+    sp_partial moving;
+    if (!sp_partial_copy(search, partial, &moving, error))
         return false;
     sp_walker walker = {.search = search,
                         .budget = budget,
                         .area = search->all,
                         .state = seed,
                         .sweeper = sp_sweepers_create(search, 1, error),
-                        .draft = &moving,
+                        .partial = &moving,
                         .error = error};
-    bool done = walker.sweeper && walk(&walker, &exact, effort, watch, draft);
+    bool done = walker.sweeper && walk(&walker, &exact, effort, deadline, partial);
     sp_sweepers_destroy(walker.sweeper, 1);
-    sp_draft_free(&moving);
-    sp_draft_refresh(search, draft);
+    sp_partial_free(&moving);
+    sp_partial_refresh(search, partial);
     return done;
 }

@@ -7,10 +7,10 @@
 
 /* Simulated annealing (Kirkpatrick, Gelatt and Vecchi, Science 220, 1983) whose step takes one or two nozzles out and
  * puts in what gains most of a few candidate poses drawn at random (as ruin and recreate: Schrimpf and others, J.
- * Comput. Phys. 159, 2000), within an outlay of `budget` (m³/s). The draft becomes the layout met that covers most.
- * `effort`: patches gone through, which sets the number of steps. Runs on the thread that calls; the same for the same
- * seed. */
-bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
-             sp_error *error);
+ * Comput. Phys. 159, 2000), within an outlay of `budget` (m³/s). The partial layout becomes the layout met that covers
+ * most. `effort`: patches gone through, which sets the number of steps. Runs on the thread that calls; the same for the
+ * same seed. */
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_deadline *deadline,
+             sp_partial *partial, sp_error *error);
 
 #endif

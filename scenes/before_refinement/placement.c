@@ -15,17 +15,17 @@ void fail(const sp_error *error)
 void placement_open(const char *scene, placement *p)
 {
     sp_error error = {0};
-    sp_draft first;
+    sp_partial first;
     *p = (placement){.scene = sp_scene_load(scene, &error)};
     p->fine = p->scene ? sp_evaluator_create(sp_scene_setup(p->scene), &error) : NULL;
     if (!p->fine)
         fail(&error);
     p->options = sp_scene_place_options(p->scene);
     p->options.run.threads = 1;
-    p->watch = sp_watch_start(&p->options.run);
+    p->deadline = sp_deadline_start(&p->options.run);
     if (!sp_sites_create(p->fine, &p->options, &p->sites, &error) ||
         !sp_candidates_create(p->fine, &p->options, &p->sites, &p->candidates, &error) ||
-        !sp_visibility_fit(p->fine, &p->options, &p->sites, &p->candidates, &p->watch, &p->coarse, &p->visibility,
+        !sp_visibility_fit(p->fine, &p->options, &p->sites, &p->candidates, &p->deadline, &p->coarse, &p->visibility,
                            &error) ||
         !sp_search_create(p->coarse ? p->coarse : p->fine, &p->options, &p->sites, &p->candidates, &p->visibility,
                           &p->search, &error))
@@ -33,10 +33,10 @@ void placement_open(const char *scene, placement *p)
     p->front.fine = p->fine;
     p->front.objective = p->options.objective;
     p->front.target = p->options.coverage * sp_evaluator_patches(p->fine)->total_area;
-    if (!sp_find_first(&p->search, 1, &p->watch, &p->front, &p->pool, &first, &error) ||
-        !sp_find_more(&p->search, &p->watch, &p->front, &p->pool, &first, &error))
+    if (!sp_find_first(&p->search, 1, &p->deadline, &p->front, &p->pool, &first, &error) ||
+        !sp_find_more(&p->search, &p->deadline, &p->front, &p->pool, &first, &error))
         fail(&error);
-    sp_draft_free(&first);
+    sp_partial_free(&first);
 }
 
 void placement_close(placement *p)
@@ -48,7 +48,7 @@ void placement_close(placement *p)
     sp_evaluator_destroy(p->coarse);
     sp_candidates_free(&p->candidates);
     sp_sites_free(&p->sites);
-    free(p->watch.stages);
+    free(p->deadline.stages);
     sp_evaluator_destroy(p->fine);
     sp_scene_destroy(p->scene);
 }

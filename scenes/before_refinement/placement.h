@@ -10,7 +10,7 @@ typedef struct {
     sp_scene *scene;
     sp_evaluator *fine;
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_evaluator *coarse; /* NULL: the search sees `fine` */

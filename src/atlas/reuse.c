@@ -232,7 +232,7 @@ static bool is_foreign(const uint32_t *row, size_t x, size_t end, uint32_t chart
 }
 
 /* Paints one page, each pixel with its chart's number from 1, and looks for others in it and around it. */
-static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_cover *cover)
+static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_raster *raster)
 {
     const sp_atlas *atlas = r->atlas;
     size_t edge = atlas->page_edge;
@@ -241,15 +241,15 @@ static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_cover 
         uint32_t chart = atlas->chart[t] + 1;
         if (atlas->chart_page[atlas->chart[t]] != page)
             continue;
-        sp_atlas_cover(atlas, t, SP_COVER_PIXELS, cover); /* needs no memory */
-        while (sp_cover_next(cover)) {
-            size_t from = cover->x ? cover->x - 1 : 0, end = cover->x + (size_t)cover->count + 1;
+        sp_atlas_rasterize(atlas, t, SP_RASTER_PIXELS, raster); /* needs no memory */
+        while (sp_raster_next(raster)) {
+            size_t from = raster->x ? raster->x - 1 : 0, end = raster->x + (size_t)raster->count + 1;
             end = end < edge ? end : edge;
-            for (size_t y = cover->y ? cover->y - 1 : 0; y < cover->y + 2 && y < edge; y++)
+            for (size_t y = raster->y ? raster->y - 1 : 0; y < raster->y + 2 && y < edge; y++)
                 if (is_foreign(paint + y * edge, from, end, chart))
                     return refuse(r, t, "a chart that lies on another or without a pixel between");
-            for (size_t x = cover->x; x < (size_t)cover->x + cover->count; x++)
-                paint[cover->y * edge + x] = chart;
+            for (size_t x = raster->x; x < (size_t)raster->x + raster->count; x++)
+                paint[raster->y * edge + x] = chart;
         }
     }
     return true;
@@ -259,12 +259,12 @@ static bool check_gaps(const reuse *r)
 {
     size_t edge = r->atlas->page_edge;
     uint32_t *paint = malloc(edge * edge * sizeof *paint);
-    sp_cover cover = {0};
+    sp_raster raster = {0};
     bool done = paint || sp_fail_memory(r->error);
     for (uint32_t page = 0; done && page < r->atlas->page_count; page++)
-        done = check_page(r, page, paint, &cover);
+        done = check_page(r, page, paint, &raster);
     free(paint);
-    sp_cover_free(&cover);
+    sp_raster_free(&raster);
     return done;
 }
 

@@ -6,7 +6,7 @@
 #define RAD (M_PI / 180)
 
 /* From behind one looks up, so that the lid's underside shows; nozzles often leave it dry. */
-const sp_view sp_views[SP_VIEWS] = {
+const sp_viewpoint sp_viewpoints[SP_VIEWPOINTS] = {
     {"From the front", 0, 10 * RAD},
     {"From behind, looking up", 150 * RAD, -28 * RAD},
     {"From above, into the bottom", 0, 72 * RAD},
@@ -47,11 +47,11 @@ static bool encloses(const sp_evaluator *evaluator, sp_vec3 middle)
     return hits > 0.6 * LINES;
 }
 
-static void set_axes(sp_camera *camera, const sp_view *view, sp_vec3 up)
+static void set_axes(sp_camera *camera, const sp_viewpoint *viewpoint, sp_vec3 up)
 {
     sp_vec3 right = sp_v(1, 0, 0), front = sp_cross(right, up);
-    sp_vec3 level = sp_add(sp_scale(front, cos(view->azimuth)), sp_scale(right, sin(view->azimuth)));
-    sp_vec3 towards_eye = sp_add(sp_scale(level, cos(view->elevation)), sp_scale(up, sin(view->elevation)));
+    sp_vec3 level = sp_add(sp_scale(front, cos(viewpoint->azimuth)), sp_scale(right, sin(viewpoint->azimuth)));
+    sp_vec3 towards_eye = sp_add(sp_scale(level, cos(viewpoint->elevation)), sp_scale(up, sin(viewpoint->elevation)));
     camera->forward = sp_scale(towards_eye, -1);
     camera->right = sp_unit(sp_cross(camera->forward, up));
     camera->up = sp_cross(camera->right, camera->forward);
@@ -125,7 +125,8 @@ static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp
     camera->eye = sp_along(camera->centre, -f.distance, camera->forward);
 }
 
-sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_view *view, int pixels)
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_viewpoint *viewpoint,
+                           int pixels)
 {
     sp_camera camera = {0};
     const sp_setup *setup = sp_evaluator_setup(evaluator);
@@ -136,7 +137,7 @@ sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *resul
     if (!(camera.size > 0))
         camera.size = 1;
     camera.cut = setup->cavity == SP_CAVITY_NONE && encloses(evaluator, camera.centre);
-    set_axes(&camera, view, setup->up);
+    set_axes(&camera, viewpoint, setup->up);
     frame_all(&camera, evaluator, result, pixels);
     return camera;
 }

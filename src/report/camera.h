@@ -7,10 +7,10 @@
 typedef struct {
     const char *caption;       /* "From the front" */
     double azimuth, elevation; /* rad: about up from the front, above the horizon */
-} sp_view;
+} sp_viewpoint;
 
-#define SP_VIEWS 3
-extern const sp_view sp_views[SP_VIEWS];
+#define SP_VIEWPOINTS 3
+extern const sp_viewpoint sp_viewpoints[SP_VIEWPOINTS];
 
 typedef struct {
     sp_vec3 eye;                /* m */
@@ -27,7 +27,8 @@ typedef struct {
 /* Holds everything wet that is to be cleaned (without a result: everything) and the nozzles that the result's designs
  * of this evaluator have about it, and nothing around, on the scale of a picture of `pixels` about the middle. Cut
  * where no cavity says which sides to look through and the geometry encloses its middle. */
-sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_view *view, int pixels);
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_viewpoint *viewpoint,
+                           int pixels);
 /* Direction (not unit, forward component 1) through a point of the picture, in pixels from its top left. */
 sp_vec3 sp_camera_direction(const sp_camera *camera, double x, double y);
 /* Where a point appears, in pixels; false behind the eye. */

@@ -48,8 +48,9 @@ static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rg
         sp_layers_colour(by->layers, by->scale, by->deposits, look, stripe, rgb);
 }
 
-static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
-                        const sp_layers *layers, const sp_shot *shot, const sp_listed_shadows *shadows, sp_error *error)
+static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_viewpoint *viewpoint,
+                        const sp_camera *camera, const sp_layers *layers, const sp_shot *shot,
+                        const sp_listed_shadows *shadows, sp_error *error)
 {
     const sp_design *shown = &page->result->designs[design];
     const colouring by = {layers, &page->scale, &shown->coverage->deposits};
@@ -65,7 +66,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text,
                 ", %s: %s in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
                 "href=\"data:image/webp;base64,",
-                view->caption,
+                viewpoint->caption,
                 page->scale.style.quantity == SP_QUANTITY_FLUX ? "coverage"
                                                                : sp_quantity_words_of[page->scale.style.quantity].name,
                 shown->layout->count, shot->width, shot->height);
@@ -88,7 +89,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
 }
 
 /* What is traced once serves all designs in a row that share an evaluator. */
-static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, int pixels,
+static bool add_view(const sp_page *page, sp_text *text, const sp_viewpoint *viewpoint, int pixels,
                      const sp_listed_shadows *shadows, sp_error *error)
 {
     sp_camera camera = {0};
@@ -102,12 +103,12 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
         if (layers.evaluator != evaluator) {
             sp_layers_free(&layers);
             sp_shot_free(&shot);
-            camera = sp_camera_create(evaluator, page->result, view, pixels);
+            camera = sp_camera_create(evaluator, page->result, viewpoint, pixels);
             done =
                 sp_layers_create_for(&layers, evaluator, &page->scale, error) &&
                 sp_shot_create(&shot, evaluator, &camera, page->scale.style.wireframe, look_at_patch, &layers, error);
         }
-        done = done && add_picture(page, text, i, view, &camera, &layers, &shot, &shadows[i], error);
+        done = done && add_picture(page, text, i, viewpoint, &camera, &layers, &shot, &shadows[i], error);
     }
     sp_shot_free(&shot);
     sp_layers_free(&layers);
@@ -118,7 +119,7 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
 static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *first)
 {
     sp_cavity_kind cavity = sp_evaluator_setup(first)->cavity;
-    sp_camera camera = sp_camera_create(first, page->result, &sp_views[0], PIXELS);
+    sp_camera camera = sp_camera_create(first, page->result, &sp_viewpoints[0], PIXELS);
     sp_text_add(
         text,
         "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
@@ -166,9 +167,10 @@ static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error
     bool done = shadows != NULL;
     /* three alternatives and the manual layout make a square */
     size_t row = drawn < 3 ? drawn : drawn == 4 && page->alternatives ? 2 : 3;
-    for (int i = 0; done && i < SP_VIEWS; ++i) {
-        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption, row);
-        done = add_view(page, text, &sp_views[i], pixels, shadows, error);
+    for (int i = 0; done && i < SP_VIEWPOINTS; ++i) {
+        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_viewpoints[i].caption,
+                    row);
+        done = add_view(page, text, &sp_viewpoints[i], pixels, shadows, error);
         sp_text_add(text, "</div></div>\n");
     }
     for (size_t i = 0; shadows && i < page->result->design_count; ++i)
@@ -186,7 +188,7 @@ typedef struct {
 static bool try_view(const sp_result *result, const sp_design *design, int pixels, view_time *taken, sp_error *error)
 {
     const sp_colour_scale scale = sp_colour_scale_of(design, 1, result->style);
-    sp_camera camera = sp_camera_create(design->evaluator, result, &sp_views[0], pixels);
+    sp_camera camera = sp_camera_create(design->evaluator, result, &sp_viewpoints[0], pixels);
     sp_layers layers = {0};
     sp_shot shot = {0};
     const colouring by = {&layers, &scale, &design->coverage->deposits};
@@ -217,7 +219,7 @@ bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *
             first = &result->designs[i];
     view_time one = {0};
     bool done = !first || try_view(result, first, full_size(drawn) / SMALLER, &one, error);
-    *seconds = SP_VIEWS * (one.layers + pow(SMALLER, GROWTH) * (one.tracing + (double)drawn * one.painting));
+    *seconds = SP_VIEWPOINTS * (one.layers + pow(SMALLER, GROWTH) * (one.tracing + (double)drawn * one.painting));
     return done;
 }
 

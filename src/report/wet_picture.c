@@ -43,7 +43,7 @@ static void place_tile(const uint8_t *tile, const sp_shot *shot, int column, int
 
 static bool add_tile(const sp_evaluator *evaluator, int column, int row, int width, uint8_t *picture, sp_error *error)
 {
-    sp_camera camera = sp_camera_create(evaluator, NULL, &sp_views[column], TILE);
+    sp_camera camera = sp_camera_create(evaluator, NULL, &sp_viewpoints[column], TILE);
     sp_shot shot = {0};
     camera.cut = row == 0;
     uint8_t *tile = sp_shot_create(&shot, evaluator, &camera, false, look_at_side, evaluator, error)
@@ -58,14 +58,14 @@ static bool add_tile(const sp_evaluator *evaluator, int column, int row, int wid
 
 bool sp_report_wet_png(const sp_evaluator *evaluator, const char *path, sp_error *error)
 {
-    enum { WIDTH = GAP + SP_VIEWS * (TILE + GAP), HEIGHT = GAP + ROWS * (TILE + GAP) };
+    enum { WIDTH = GAP + SP_VIEWPOINTS * (TILE + GAP), HEIGHT = GAP + ROWS * (TILE + GAP) };
     uint8_t *picture = malloc((size_t)3 * WIDTH * HEIGHT);
     if (!picture)
         return sp_fail_memory(error);
     memset(picture, 255, (size_t)3 * WIDTH * HEIGHT);
     bool done = true;
-    for (int i = 0; done && i < ROWS * SP_VIEWS; i++)
-        done = add_tile(evaluator, i % SP_VIEWS, i / SP_VIEWS, WIDTH, picture, error);
+    for (int i = 0; done && i < ROWS * SP_VIEWPOINTS; i++)
+        done = add_tile(evaluator, i % SP_VIEWPOINTS, i / SP_VIEWPOINTS, WIDTH, picture, error);
     done = done && sp_image_write_png(path, picture, WIDTH, HEIGHT, 3, error);
     free(picture);
     return done;

@@ -127,17 +127,17 @@ static void enclose(const workplace *w, sp_shaft *shaft)
     shaft->radius *= 1 + SLACK;
 }
 
-/* What the flights from a nozzle to a patch have in common. Angles in rad. */
+/* What all flights from a nozzle to a patch lie within. Angles in rad. */
 typedef struct {
     double eps, distance, radius, high, level; /* the last two: of the way to the middle, m */
     double spread, turn, landing;              /* of ways; of parabolas from theirs, at the start and at the end */
     double incidence_least, incidence_most;
     double b_least, b_most; /* m²/s² */
-} bundle;
+} flight_bounds;
 
 /* False where there is none: the patch is too near, or too far. */
-static bool bundle_of(const bounding *b, const spraying *s, const workplace *w, sp_side side, sp_shaft *shaft,
-                      bundle *flights)
+static bool flight_bounds_of(const bounding *b, const spraying *s, const workplace *w, sp_side side, sp_shaft *shaft,
+                             flight_bounds *flights)
 {
     double v = s->straight.source.speed, d = shaft->distance, radius = shaft->radius,
            eps = b->g * (d + radius) / (v * v);
@@ -147,7 +147,7 @@ static bool bundle_of(const bounding *b, const spraying *s, const workplace *w, 
     double level = sp_length(sp_cross(shaft->way, b->up)), high = sp_dot(shaft->way, b->up);
     double sine = fmin(1, level / d + radius / d), time = 2 * half / eps * (d + radius) / v;
     shaft->rise = 0.5 * b->g * time * time * (1 + SLACK);
-    *flights = (bundle){.eps = eps, .distance = d, .radius = radius, .high = high, .level = level};
+    *flights = (flight_bounds){.eps = eps, .distance = d, .radius = radius, .high = high, .level = level};
     flights->spread = asin(radius / d) + SLACK;
     flights->turn = asin(fmin(1, half * sine));
     flights->landing = asin(fmin(1, half * sine / sqrt(1 - 2 * eps)));
@@ -183,7 +183,7 @@ static double share_of(const sp_emitter *emitter, const sp_target *target, const
 }
 
 /* The flux of the flights per flux of solid angle, at the least and at the most, 1/m²: lines, and low parabolas. */
-static void transfer_of(const bounding *b, double v, const bundle *flights, double *least, double *most)
+static void transfer_of(const bounding *b, double v, const flight_bounds *flights, double *least, double *most)
 {
     double near = flights->distance - flights->radius, far = flights->distance + flights->radius;
     double flat = cos(fmax(0, flights->incidence_least)), steep = cos(fmin(M_PI / 2, flights->incidence_most));
@@ -213,7 +213,7 @@ static void flux_of(const spraying *s, sp_vec3 axis, double reach, double thresh
 
 /* Whether high arcs cannot bring anything that passes. */
 static bool high_arcs_fail(const bounding *b, const spraying *s, const workplace *w, sp_side side,
-                           const bundle *flights, double share)
+                           const flight_bounds *flights, double share)
 {
     double v = s->falling.source.speed, slow = sqrt(2 * flights->b_least - v * v);
     double lean = b->g * (flights->level + flights->radius) / sqrt(2 * flights->b_least);
@@ -238,11 +238,11 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
     sp_target target = sp_patch_target(&b->straight, patch);
     double v = s->straight.source.speed, slow, fast, share[3];
     sp_flight line[2], parabola[2];
-    bundle flights;
+    flight_bounds flights;
     *least = 0;
     *most = INFINITY;
     *high = true;
-    if (!bundle_of(b, s, w, target.side, shaft, &flights) || sp_target_is_near(&s->straight.source, &target) ||
+    if (!flight_bounds_of(b, s, w, target.side, shaft, &flights) || sp_target_is_near(&s->straight.source, &target) ||
         sp_target_is_near(&s->falling.source, &target) ||
         sp_flights(shaft->from, target.point, v, b->straight.gravity, line) != 1 ||
         sp_flights(shaft->from, target.point, v, b->falling.gravity, parabola) != 2)

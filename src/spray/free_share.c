@@ -47,13 +47,13 @@ static bool shade(watch *w, const sp_ray *ray, sp_vec3 pull)
     return w->free == 0;
 }
 
-double sp_ray_free_share(const sp_source *source, sp_flock *flock, uint32_t patch, size_t i)
+double sp_ray_free_share(const sp_source *source, sp_ray_queue *queue, uint32_t patch, size_t i)
 {
     const sp_evaluator *evaluator = source->evaluator;
-    const sp_passing_ray *passing = &flock->passing[i];
-    sp_ray ray = flock->rays[i];
+    const sp_passing_ray *passing = &queue->passing[i];
+    sp_ray ray = queue->rays[i];
     ray.skip = passing->target;
-    watch w = watch_for(evaluator, patch, passing->target, passing->position, flock->shaded);
+    watch w = watch_for(evaluator, patch, passing->target, passing->position, queue->shaded);
     shade(&w, &ray, source->gravity);
     return share_of(&w);
 }
@@ -72,7 +72,7 @@ static bool look_along(void *user, const sp_ray *piece, sp_vec3 pull)
 double sp_pass_free_share(const sp_gathering *own, const sp_target *target, const sp_flight *way)
 {
     const sp_source *source = &own->source;
-    watch w = watch_for(source->evaluator, own->patch, target->triangle, own->position, own->flock->shaded);
+    watch w = watch_for(source->evaluator, own->patch, target->triangle, own->position, own->queue->shaded);
     w.offset = own->offset;
     return sp_flight_visit(source, target, way, look_along, &w) ? 0 : share_of(&w);
 }

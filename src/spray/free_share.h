@@ -5,9 +5,9 @@
 
 #include "gathering.h"
 
-/* The share of an arrival's time in which no goods are in the way of the flock's ray `i`: all or none where they are
+/* The share of an arrival's time in which no goods are in the way of the queue's ray `i`: all or none where they are
  * looked at in one position, and of what stands the mean over the pass. */
-double sp_ray_free_share(const sp_source *source, sp_flock *flock, uint32_t patch, size_t i);
+double sp_ray_free_share(const sp_source *source, sp_ray_queue *queue, uint32_t patch, size_t i);
 /* The same of a flight with drag, of what stands as well. */
 double sp_pass_free_share(const sp_gathering *own, const sp_target *target, const sp_flight *way);
 

@@ -10,7 +10,8 @@ typedef struct {
     uint32_t target; /* triangle, of the setup's mesh */
 } sp_passing_ray;
 
-typedef struct sp_flock {
+/* Arrivals, and the rays along their ways, which are traced together when the chunk is gathered. */
+typedef struct sp_ray_queue {
     size_t count, capacity;
     sp_arrival *arrivals; /* [capacity], as what follows */
     size_t ray_count;
@@ -21,14 +22,14 @@ typedef struct sp_flock {
     size_t places; /* that flights were solved for */
     size_t ways;   /* that were looked along, with drag one by one */
     bool failed;   /* for want of memory */
-} sp_flock;
+} sp_ray_queue;
 
 /* One patch while its flights are gathered. */
 typedef struct {
     sp_source source; /* as the patch sees it from where the mesh has it */
     const sp_aim *aim;
     uint32_t patch;
-    sp_flock *flock;
+    sp_ray_queue *queue;
     double share;    /* of the pass, that the goods' position stands for */
     double step;     /* m, that the goods move from one position to the next; 0: the patch does not */
     size_t position; /* theirs */

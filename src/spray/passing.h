@@ -2,7 +2,7 @@
 #ifndef SPRAY_PASSING_H
 #define SPRAY_PASSING_H
 
-#include "flock.h"
+#include "ray_queue.h"
 
 /* The flights to a patch that moves, in all positions. */
 void sp_gather_passing(sp_gathering *own, const sp_target *target);

@@ -1,7 +1,7 @@
 /* What one point can reach at one speed: the flights to every patch, less those that something blocks. */
 #include "reach.h"
 
-#include "flock.h"
+#include "ray_queue.h"
 #include "free_share.h"
 #include "movers.h"
 #include "passing.h"
@@ -12,12 +12,12 @@
 #define CHUNK 4096     /* patches whose flights are traced together: the tracer likes many of one origin */
 #define CHUNK_DRAG 256 /* the same with drag, where each is traced for itself */
 
-static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, sp_flock *flock)
+static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, sp_ray_queue *queue)
 {
     const sp_evaluator *evaluator = source->evaluator;
     if ((aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3)) || (aim->among && !aim->among[patch]))
         return;
-    sp_gathering own = {.source = *source, .aim = aim, .patch = patch, .flock = flock, .share = 1};
+    sp_gathering own = {.source = *source, .aim = aim, .patch = patch, .queue = queue, .share = 1};
     sp_target target = sp_patch_target(evaluator, patch);
     if (evaluator->movers && sp_motion_of(evaluator, target.triangle) == SP_MOVING)
         sp_gather_passing(&own, &target);
@@ -32,48 +32,48 @@ typedef struct harvest {
     sp_work work;
 } harvest;
 
-/* What is in the way of the flock's rays, of what stands. */
-static void trace(const sp_source *source, sp_flock *flock)
+/* What is in the way of the queue's rays, of what stands. */
+static void trace(const sp_source *source, sp_ray_queue *queue)
 {
     const sp_evaluator *evaluator = source->evaluator;
     const sp_movers *movers = evaluator->movers;
-    for (size_t i = 0; movers && i < flock->ray_count; i++) {
-        uint32_t target = flock->passing[i].target;
-        flock->rays[i].skip = sp_motion_of(evaluator, target) == SP_STANDING ? movers->own[target] : SP_NONE;
+    for (size_t i = 0; movers && i < queue->ray_count; i++) {
+        uint32_t target = queue->passing[i].target;
+        queue->rays[i].skip = sp_motion_of(evaluator, target) == SP_STANDING ? movers->own[target] : SP_NONE;
     }
-    sp_trace_occluded_many(movers ? movers->tracer[SP_STANDING] : evaluator->tracer, flock->rays, flock->ray_count,
-                           source->gravity, 1, flock->blocked);
+    sp_trace_occluded_many(movers ? movers->tracer[SP_STANDING] : evaluator->tracer, queue->rays, queue->ray_count,
+                           source->gravity, 1, queue->blocked);
 }
 
 /* The arrivals at patches first to end; false where memory ran out. */
-static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, sp_flock *flock,
+static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, sp_ray_queue *queue,
                  harvest *harvest)
 {
-    flock->count = flock->ray_count = flock->places = flock->ways = 0;
-    if (!flock->shaded)
-        flock->shaded = malloc(source->evaluator->positions * sizeof *flock->shaded);
-    if (!flock->shaded || !sp_flock_make_room(flock, 2 * (size_t)(end - first)))
+    queue->count = queue->ray_count = queue->places = queue->ways = 0;
+    if (!queue->shaded)
+        queue->shaded = malloc(source->evaluator->positions * sizeof *queue->shaded);
+    if (!queue->shaded || !sp_ray_queue_make_room(queue, 2 * (size_t)(end - first)))
         return false;
     for (uint32_t patch = first; patch < end; patch++)
-        gather(source, aim, patch, flock);
-    if (flock->failed)
+        gather(source, aim, patch, queue);
+    if (queue->failed)
         return false;
-    trace(source, flock);
+    trace(source, queue);
     size_t kept = 0;
-    for (size_t i = 0, ray = 0; i < flock->count; i++) {
-        sp_arrival *arrival = &flock->arrivals[i];
+    for (size_t i = 0, ray = 0; i < queue->count; i++) {
+        sp_arrival *arrival = &queue->arrivals[i];
         bool traced = !source->fronts && sp_way_is_traced(source->evaluator, aim, arrival->part);
-        if (traced && source->evaluator->movers && !flock->blocked[ray])
-            arrival->part *= sp_ray_free_share(source, flock, arrival->patch, ray);
-        if (traced && (flock->blocked[ray++] || !(arrival->part > 0)))
+        if (traced && source->evaluator->movers && !queue->blocked[ray])
+            arrival->part *= sp_ray_free_share(source, queue, arrival->patch, ray);
+        if (traced && (queue->blocked[ray++] || !(arrival->part > 0)))
             arrival->blocked = true;
         if (!arrival->blocked || aim->blocked)
-            flock->arrivals[kept++] = *arrival;
+            queue->arrivals[kept++] = *arrival;
     }
     *harvest =
-        (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ways}};
+        (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {queue->places, queue->ways}};
     if (harvest->arrivals)
-        memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
+        memcpy(harvest->arrivals, queue->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;
 }
 
@@ -95,8 +95,8 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
     int threads = omp_in_parallel() ? 1 : sp_thread_count(source->evaluator->setup.run.threads);
     if ((size_t)threads > extent.chunks)
         threads = extent.chunks ? (int)extent.chunks : 1;
-    sp_flock *flocks = calloc((size_t)threads, sizeof *flocks);
-    if (!flocks)
+    sp_ray_queue *queues = calloc((size_t)threads, sizeof *queues);
+    if (!queues)
         return false;
     bool done = true;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
@@ -104,11 +104,11 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
         size_t first = i * extent.chunk, end = first + extent.chunk;
         end = end < extent.count ? end : extent.count;
         done = done && reap(source, aim, (uint32_t)(extent.first + first), (uint32_t)(extent.first + end),
-                            &flocks[omp_get_thread_num()], &harvests[i]);
+                            &queues[omp_get_thread_num()], &harvests[i]);
     }
     for (int i = 0; i < threads; i++)
-        sp_flock_free(&flocks[i]);
-    free(flocks);
+        sp_ray_queue_free(&queues[i]);
+    free(queues);
     return done;
 }
 

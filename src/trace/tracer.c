@@ -1,7 +1,7 @@
-#include "trace/line/bundle.h"
+#include "trace/line/line_packet.h"
 #include "trace/line/line_bvh.h"
 #include "trace/parabola/parabola_bvh.h"
-#include "trace/parabola/volley.h"
+#include "trace/parabola/parabola_packet.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -183,7 +183,7 @@ bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravi
 }
 
 /* Rays that one thread takes at a time: so many that sorting them brings neighbours together. */
-enum { CHUNK = 1 << 18, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64, FAN_SPARSE = 6 };
+enum { CHUNK = 1 << 18, CHUNK_LEAST = 1 << 10, COMMON_ORIGIN_LEAST = 64, COMMON_ORIGIN_SPARSE = 6 };
 
 static size_t chunk_size(size_t count, int threads)
 {
@@ -192,7 +192,7 @@ static size_t chunk_size(size_t count, int threads)
 }
 
 /* How many rays from the first on have its origin. */
-static size_t count_fan(const sp_ray *rays, size_t count)
+static size_t count_common_origin(const sp_ray *rays, size_t count)
 {
     size_t n = 1;
     while (n < count && rays[n].origin.x == rays[0].origin.x && rays[n].origin.y == rays[0].origin.y &&
@@ -214,56 +214,56 @@ static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t
     }
 }
 
-/* Lines through the bvh: fans together, all others as a stream. With more than FAN_SPARSE triangles to a ray,
- * neighbours in a fan meet different ones, and each is faster by itself. */
-static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_fan_room *room, sp_hit *hits,
-                        bool *occluded)
+/* Lines through the bvh: those of one origin in packets, all others as single rays. With more than COMMON_ORIGIN_SPARSE
+ * triangles to a ray, neighbours meet different ones, and each is faster by itself. */
+static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_common_origin_room *room,
+                        sp_hit *hits, bool *occluded)
 {
     const sp_bvh *bvh = &tracer->bvh;
     sp_instructions instructions = tracer->instructions;
-    size_t alone = 0; /* the first not yet traced */
+    size_t single = 0; /* the first not yet traced */
     for (size_t i = 0, n; i <= count; i += n) {
-        n = i < count ? count_fan(rays + i, count - i) : 1;
-        if (i < count && n < FAN_LEAST)
+        n = i < count ? count_common_origin(rays + i, count - i) : 1;
+        if (i < count && n < COMMON_ORIGIN_LEAST)
             continue;
-        bool sparse = n < tracer->mesh->triangle_count / FAN_SPARSE;
-        sp_bvh_trace_lines(bvh, instructions, rays + alone, NULL, i - alone, hits ? hits + alone : NULL,
-                           hits ? NULL : occluded + alone);
-        alone = i;
-        if (i < count && (sparse ? sp_fan_stream : sp_fan_trace)(bvh, instructions, rays + i, n, room,
-                                                                 hits ? hits + i : NULL, hits ? NULL : occluded + i))
-            alone += n;
+        bool sparse = n < tracer->mesh->triangle_count / COMMON_ORIGIN_SPARSE;
+        sp_bvh_trace_lines(bvh, instructions, rays + single, NULL, i - single, hits ? hits + single : NULL,
+                           hits ? NULL : occluded + single);
+        single = i;
+        if (i < count && (sparse ? sp_common_origin_trace_singly : sp_common_origin_trace)(
+                             bvh, instructions, rays + i, n, room, hits ? hits + i : NULL, hits ? NULL : occluded + i))
+            single += n;
     }
 }
 
-/* Parabolas through the bvh: those of one origin in volleys, all others as a stream. */
+/* Parabolas through the bvh: those of one origin in packets, all others as single rays. */
 static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
                             sp_hit *hits, bool *occluded)
 {
-    size_t alone = 0;
+    size_t single = 0;
     uint32_t *left = malloc((count + 1) * sizeof *left);
     if (!left) {
         trace_one_by_one(tracer, rays, count, pull, hits, occluded);
         return;
     }
     for (size_t i = 0, n; i < count; i += n) {
-        n = count_fan(rays + i, count - i);
+        n = count_common_origin(rays + i, count - i);
         size_t more = 1;
-        left[alone] = 0;
-        if (n >= FAN_LEAST)
-            more = sp_volleys_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull, hits ? hits + i : NULL,
-                                    hits ? NULL : occluded + i, left + alone);
+        left[single] = 0;
+        if (n >= COMMON_ORIGIN_LEAST)
+            more = sp_parabola_packets_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull,
+                                             hits ? hits + i : NULL, hits ? NULL : occluded + i, left + single);
         else
             n = 1;
-        for (size_t end = alone + more; alone < end; alone++)
-            left[alone] += (uint32_t)i;
+        for (size_t end = single + more; single < end; single++)
+            left[single] += (uint32_t)i;
     }
-    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, rays, left, alone, pull, hits, occluded);
+    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, rays, left, single, pull, hits, occluded);
     free(left);
 }
 
 static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
-                        sp_fan_room *room, sp_hit *hits, bool *occluded)
+                        sp_common_origin_room *room, sp_hit *hits, bool *occluded)
 {
     if (tracer->accelerator != SP_ACCELERATOR_BVH)
         trace_one_by_one(tracer, rays, count, pull, hits, occluded);
@@ -280,21 +280,21 @@ static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count
     threads = thread_count(threads);
     size_t size = chunk_size(count, threads), chunks = (count + size - 1) / size;
     if (chunks == 1 && count < CHUNK_LEAST) { /* a team, even of one, costs as much as some rays */
-        sp_fan_room room = {0};
+        sp_common_origin_room room = {0};
         trace_chunk(tracer, rays, count, &pull, &room, hits, occluded);
-        sp_fan_room_clear(&room);
+        sp_common_origin_room_clear(&room);
         return;
     }
 #pragma omp parallel num_threads(threads)
     {
-        sp_fan_room room = {0};
+        sp_common_origin_room room = {0};
 #pragma omp for schedule(dynamic, 1)
         for (size_t c = 0; c < chunks; c++) {
             size_t first = c * size, n = count - first < size ? count - first : size;
             trace_chunk(tracer, rays + first, n, &pull, &room, hits ? hits + first : NULL,
                         hits ? NULL : occluded + first);
         }
-        sp_fan_room_clear(&room);
+        sp_common_origin_room_clear(&room);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "certificate/aim_prices.h"
+#include "certificate/aim_pricing.h"
 #include "scoring/scoring.h"
 
 #define TYPES 6
@@ -25,7 +25,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -35,11 +35,11 @@ typedef struct {
     const uint32_t *tiers[2 * TYPES];
     size_t ports[2];
     float *need;
-    sp_lifts lifts;
-    sp_prices prices;
+    sp_valid_inequalities inequalities;
+    sp_multipliers multipliers;
     sp_aim_kinds kinds;
-    sp_pose_prices *poses;
-    sp_aim_prices *aims;
+    sp_pose_pricing *poses;
+    sp_aim_pricing *aims;
 } stage;
 
 static double next_random(uint64_t *state)
@@ -73,8 +73,8 @@ static void set_types(stage *s)
         s->types[i] = &s->type[i];
 }
 
-/* Prices at random, some texels' by a lift; `sparse`: of few texels, so that each of them tells. */
-static void set_prices(stage *s, bool sparse, uint64_t *random)
+/* Multipliers at random, some texels' by an inequality; `sparse`: of few texels, so that each of them tells. */
+static void set_multipliers(stage *s, bool sparse, uint64_t *random)
 {
     sp_error error = {0};
     size_t patches = s->search.patch_count;
@@ -93,16 +93,16 @@ static void set_prices(stage *s, bool sparse, uint64_t *random)
                           .repeats = true,
                           .threads = 1};
     s->need = malloc(patches * sizeof *s->need);
-    sp_lifts_create(3, &s->lifts);
-    assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
-    s->prices.lifts = &s->lifts;
+    sp_valid_inequalities_create(3, &s->inequalities);
+    assert_true(s->need && sp_multipliers_create(&s->cover, &s->multipliers, &error));
+    s->multipliers.inequalities = &s->inequalities;
     for (size_t t = 0; t < patches; t++) {
-        double lifted = fmax(0, next_random(random) - 0.5);
+        double strengthened = fmax(0, next_random(random) - 0.5);
         s->need[t] = t % 17 ? 1 : 0.5f;
         double priced = sparse ? t % 37 == 0 : 1;
-        s->prices.plain[t] = (float)(priced * next_random(random) * (1 - lifted)) * s->search.area[t];
-        s->prices.lifted[t] = (float)(priced * lifted) * s->search.area[t];
-        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->lifts.kinds);
+        s->multipliers.plain[t] = (float)(priced * next_random(random) * (1 - strengthened)) * s->search.area[t];
+        s->multipliers.strengthened[t] = (float)(priced * strengthened) * s->search.area[t];
+        s->multipliers.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
 
@@ -141,33 +141,33 @@ static void stage_open(stage *s, sp_trajectory trajectory, bool sparse, uint64_t
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
     s->options.run.threads = 1;
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
                                      &s->visibility, &error));
     assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
                                  &error));
-    set_prices(s, sparse, random);
+    set_multipliers(s, sparse, random);
     assert_true(sp_aim_kinds_create(&s->search, &s->kinds, &error));
     assert_int_equal(s->kinds.count, TYPES);
-    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
-    s->aims = sp_aim_prices_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
+    s->poses = sp_pose_pricing_create(&s->search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
+    s->aims = sp_aim_pricing_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
     assert_true(s->poses && s->aims);
 }
 
 static void stage_close(stage *s)
 {
-    sp_aim_prices_destroy(s->aims);
-    sp_pose_prices_destroy(s->poses);
+    sp_aim_pricing_destroy(s->aims);
+    sp_pose_pricing_destroy(s->poses);
     sp_aim_kinds_free(&s->kinds);
-    sp_prices_free(&s->prices);
+    sp_multipliers_free(&s->multipliers);
     free(s->need);
     sp_search_free(&s->search);
     sp_visibility_free(&s->visibility);
     sp_candidates_free(&s->candidates);
     sp_sites_free(&s->sites);
-    free(s->watch.stages);
+    free(s->deadline.stages);
     room_close(&s->room);
 }
 
@@ -184,9 +184,10 @@ static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray 
     sp_field_view(&s->search, view, &posed, field);
     for (size_t t = 0; t < s->search.patch_count; t++) {
         float share = field[t] < 0 ? -field[t] : fminf(1, field[t] / s->need[t]);
-        float lifted = field[t] < 0 ? share : sp_lift(&s->lifts, s->prices.kind[t], share);
+        float strengthened = field[t] < 0 ? share : sp_strengthen(&s->inequalities, s->multipliers.kind[t], share);
         if (share > 0)
-            price += (double)share * (double)s->prices.plain[t] + (double)lifted * (double)s->prices.lifted[t];
+            price += (double)share * (double)s->multipliers.plain[t] +
+                     (double)strengthened * (double)s->multipliers.strengthened[t];
     }
     free(field);
     return price;
@@ -258,7 +259,7 @@ static void no_aim_is_worth_more_than_its_cell(void **state)
                 continue;
             const sp_site *site = &s.sites.items[cell.site];
             sp_aim_disc disc = sp_aim_cell_disc(&cell, site, s.mounts[site->mount].tilt);
-            double upper = sp_aim_prices_upper(s.aims, &cell, &s.prices), most = 0;
+            double upper = sp_aim_pricing_upper(s.aims, &cell, &s.multipliers), most = 0;
             for (int k = 0; k < AIMS; k++)
                 most = fmax(most, worth_of_some(&s, &cell, &disc, &random));
             if (most > upper)

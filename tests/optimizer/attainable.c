@@ -232,7 +232,7 @@ static void assert_same_layouts(const sp_layout *a, const sp_layout *b)
 typedef struct {
     sp_sites sites;
     sp_candidates candidates;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_visibility visibility;
     sp_evaluator *resampled;
     size_t kept;
@@ -241,7 +241,7 @@ typedef struct {
 static void outlook_begin(const job *j, outlook *o)
 {
     sp_error error = {0};
-    *o = (outlook){.watch = sp_watch_start(&j->options.run)};
+    *o = (outlook){.deadline = sp_deadline_start(&j->options.run)};
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &o->sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &o->sites, &o->candidates, &error));
 }
@@ -250,8 +250,8 @@ static void look_around(const job *j, outlook *o)
 {
     sp_error error = {0};
     outlook_begin(j, o);
-    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &o->sites, &o->candidates, &o->watch, &o->resampled,
-                                  &o->visibility, &error));
+    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &o->sites, &o->candidates, &o->deadline,
+                                  &o->resampled, &o->visibility, &error));
     for (size_t v = 0; v < o->sites.count; v++)
         o->kept += o->visibility.views[v].start != NULL;
 }
@@ -358,10 +358,10 @@ static double footprints_bytes(const sp_search *search)
     const sp_candidates *candidates = search->candidates;
     double bytes = 0;
     for (uint32_t site = 0; site < search->sites->count; site++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
-            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->makes[k].type); a++)
-                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++) {
+            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->variants[k].type); a++)
+                for (uint32_t r = 0; r < candidates->variants[k].roll_count; r++) {
                     const sp_footprint *found = sp_footprints_look(search->footprints, (sp_pose){site, k, a, r});
                     bytes += (double)(sizeof *found + found->count * sizeof *found->prints);
                 }
@@ -398,11 +398,11 @@ static void views_and_footprints_share_memory(void **state)
         sp_error error = {0};
         j.options.memory = memory; /* at first what is the default */
         outlook_begin(&j, &o);
-        assert_true(sp_visibility_create(j.room.evaluator, &j.options, &o.sites, &o.candidates, &o.watch, &o.visibility,
-                                         &error)); /* on the same patches twice */
+        assert_true(sp_visibility_create(j.room.evaluator, &j.options, &o.sites, &o.candidates, &o.deadline,
+                                         &o.visibility, &error)); /* on the same patches twice */
         assert_true(sp_search_create(o.visibility.evaluator, &j.options, &o.sites, &o.candidates, &o.visibility,
                                      &search, &error));
-        assert_true(sp_footprints_fill(search.footprints, &o.watch, &error));
+        assert_true(sp_footprints_fill(search.footprints, &o.deadline, &error));
         double views = o.visibility.bytes, footprints = footprints_bytes(&search);
         assert_true(footprints > 0 && (!scarce || views + footprints <= memory));
         memory = 0.8 * views; /* enough for either alone */

@@ -24,10 +24,10 @@ static void check_instance(instance *in, size_t start_rows, double *looseness)
         assert_true(sp_rows_add(&bound.rows, in->rows.key[c], in->rows.port[c], in->rows.tier[c],
                                 in->rows.texel + in->rows.start[c], in->rows.share + in->rows.start[c],
                                 in->rows.start[c + 1] - in->rows.start[c], &error));
-    /* whether prices are sought on groups of texels first or not */
+    /* whether multipliers are sought on groups of texels first or not */
     bound.coarse = start_rows % 2 ? 60 : 0;
     assert_true(sp_bound_lower_single(&bound, &error));
-    /* a level of the lifts is all that it may lie above, where no more than one fits */
+    /* a level of the inequalities is all that it may lie above, where no more than one fits */
     for (size_t w = 0; w <= water && w < 2 * bound.lightest; w++) {
         assert_true(bound.by_water[w] >= t.by_water[w]);
         assert_true(bound.by_water[w] <= t.by_water[w] + 0.02);
@@ -264,9 +264,9 @@ static void threads_do_not_matter(void **state)
         assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
         for (int round = 0; round < 3; round++)
             assert_true(sp_bound_lower(&bound, 70, &error));
-        price[i] = bound.dual.price.plain;
+        price[i] = bound.dual.multipliers.plain;
         by_water[i] = bound.by_water;
-        bound.dual.price.plain = NULL;
+        bound.dual.multipliers.plain = NULL;
         bound.by_water = NULL;
         sp_bound_free(&bound);
         instance_free(&in);

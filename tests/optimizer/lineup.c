@@ -1,8 +1,8 @@
-/* Searches on a table of poses against every layout that can be made of them. */
+/* Searches in a coverage matrix of poses against every layout that can be made of them. */
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 #include "search/tuned.h"
 
 #define PRESSURE 2e5
@@ -17,7 +17,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -62,18 +62,18 @@ static void job_open(job *j, bool single)
                               .to = sp_v(0.9, 0.1, 1)};
     j->mounts[1] =
         (sp_mount){.kind = SP_MOUNT_PORT, .name = "P", .position = sp_v(0.5, -0.3, 1.1), .axis = sp_v(0, 0, -1)};
-    j->watch = sp_watch_start(&j->options.run);
+    j->deadline = sp_deadline_start(&j->options.run);
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &j->sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &error));
-    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->watch,
+    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->deadline,
                                      &j->visibility, &error));
     assert_true(sp_search_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->visibility, &j->search,
                                  &error));
     for (uint32_t site = 0; site < j->sites.count; site++)
-        for (uint32_t make = 0; make < j->candidates.make_count; make++)
-            for (uint32_t axis = 0; axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, make)->count;
-                 axis++)
-                assert_true(sp_pool_add(&j->pool, (sp_pose){site, make, axis, 0}, &error));
+        for (uint32_t variant = 0; variant < j->candidates.variant_count; variant++)
+            for (uint32_t axis = 0;
+                 axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, variant)->count; axis++)
+                assert_true(sp_pool_add(&j->pool, (sp_pose){site, variant, axis, 0}, &error));
     sp_pool_settle(&j->pool);
 }
 
@@ -84,7 +84,7 @@ static void job_close(job *j)
     sp_visibility_free(&j->visibility);
     sp_candidates_free(&j->candidates);
     sp_sites_free(&j->sites);
-    free(j->watch.stages);
+    free(j->deadline.stages);
     room_close(&j->room);
 }
 
@@ -121,25 +121,25 @@ static double area_of(const job *j, const uint32_t *rows, size_t count, bool alo
     return area;
 }
 
-static bool fits_port(const sp_table *table, const uint32_t *rows, size_t count)
+static bool fits_port(const sp_coverage_matrix *matrix, const uint32_t *rows, size_t count)
 {
     size_t in_port = 0;
     for (size_t i = 0; i < count; i++)
-        in_port += sp_table_mount(table, rows[i]) == 1;
+        in_port += sp_coverage_matrix_mount(matrix, rows[i]) == 1;
     return in_port <= 1;
 }
 
 /* The most that any layout of at most three rows covers with so much water. */
-static double best_of_all(const sp_table *table, double budget, sp_lineup *lineup)
+static double best_of_all(const sp_coverage_matrix *matrix, double budget, sp_lineup *lineup)
 {
-    uint32_t count = (uint32_t)table->row_count;
+    uint32_t count = (uint32_t)matrix->row_count;
     double best = 0;
     for (uint32_t a = 0; a < count; a++)
         for (uint32_t b = a; b <= count; b++)
             for (uint32_t c = b; c <= count; c++) {
                 uint32_t rows[3] = {a, b, c};
                 size_t taken = b == count ? 1 : c == count ? 2 : 3;
-                if ((b == count && c != count) || !fits_port(table, rows, taken))
+                if ((b == count && c != count) || !fits_port(matrix, rows, taken))
                     continue;
                 sp_lineup_set(lineup, rows, taken);
                 if (lineup->flow <= budget)
@@ -148,39 +148,39 @@ static double best_of_all(const sp_table *table, double budget, sp_lineup *lineu
     return best;
 }
 
-static void guesses_come_near_the_best(void **state)
+static void enumeration_comes_near_the_best(void **state)
 {
     (void)state;
     static const double waters[] = {7, 16, 23, 30, 39, 48};
     for (int single = 0; single < 2; single++) {
         job j;
         sp_error error = {0};
-        sp_table table;
+        sp_coverage_matrix matrix;
         sp_lineup lineups[6], scratch;
         double budgets[6];
         job_open(&j, single);
-        assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
-        assert_true(table.row_count >= 14);
-        assert_int_equal(table.patch_count, j.search.patch_count);
-        assert_true(sp_lineup_create(&table, &scratch, &error));
+        assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(matrix.row_count >= 14);
+        assert_int_equal(matrix.patch_count, j.search.patch_count);
+        assert_true(sp_lineup_create(&matrix, &scratch, &error));
         for (size_t i = 0; i < 6; i++)
             budgets[i] = LITRES(waters[i]) * (1 + SP_ROUNDING);
-        assert_true(sp_guess(&table, budgets, 6, &j.watch, lineups, &error));
+        assert_true(sp_enumerate_partially(&matrix, budgets, 6, &j.deadline, lineups, &error));
         for (size_t i = 0; i < 6; i++) {
-            double best = best_of_all(&table, budgets[i], &scratch);
+            double best = best_of_all(&matrix, budgets[i], &scratch);
             assert_true(lineups[i].flow <= budgets[i]);
-            assert_true(fits_port(&table, lineups[i].row, lineups[i].count));
+            assert_true(fits_port(&matrix, lineups[i].row, lineups[i].count));
             assert_true(lineups[i].covered <= best * (1 + 1e-6));
             if (lineups[i].covered < best * (1 - SHORT_MOST))
                 fail_msg("%s, %g L/min: found %g m2, the best is %g m2", single ? "single" : "sum", waters[i],
                          lineups[i].covered, best);
-            /* the table's sums are the evaluator's */
+            /* the matrix's sums are the evaluator's */
             double area = area_of(&j, lineups[i].row, lineups[i].count, single);
             assert_true(fabs(area - lineups[i].covered) < 1e-3 * area);
             sp_lineup_free(&lineups[i]);
         }
         sp_lineup_free(&scratch);
-        sp_table_free(&table);
+        sp_coverage_matrix_free(&matrix);
         job_close(&j);
     }
 }
@@ -191,24 +191,24 @@ static void two_merge_into_the_best_one(void **state)
     (void)state;
     job j;
     sp_error error = {0};
-    sp_table table;
+    sp_coverage_matrix matrix;
     sp_lineup lineup, scratch;
     job_open(&j, false);
-    assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
-    assert_true(sp_lineup_create(&table, &lineup, &error) && sp_lineup_create(&table, &scratch, &error));
+    assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+    assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
     uint32_t narrow[3], found = 0;
-    for (uint32_t r = 0; r < table.row_count && found < 3; r++)
-        if (j.candidates.makes[j.pool.items[r].make].type == &j.types[1])
+    for (uint32_t r = 0; r < matrix.row_count && found < 3; r++)
+        if (j.candidates.variants[j.pool.items[r].variant].type == &j.types[1])
             narrow[found++] = r;
     assert_int_equal(found, 3);
     for (int i = 0; i < 2; i++) {
         /* 14 L/min allow no wide one; with a third narrow one's water there would be */
         double best = 0, most = LITRES(i ? 16 : 14) * (1 + SP_ROUNDING);
         sp_lineup_set(&lineup, narrow, 3);
-        for (uint32_t r = 0; r < table.row_count; r++) {
+        for (uint32_t r = 0; r < matrix.row_count; r++) {
             uint32_t rows[2] = {narrow[1], r};
             sp_lineup_set(&scratch, rows, 2);
-            if (sp_table_flow(&table, r) <= LITRES(14) * (1 + SP_ROUNDING) && fits_port(&table, rows, 2))
+            if (sp_coverage_matrix_flow(&matrix, r) <= LITRES(14) * (1 + SP_ROUNDING) && fits_port(&matrix, rows, 2))
                 best = fmax(best, scratch.covered);
         }
         assert_true(sp_lineup_merge(&lineup, 0, 2, LITRES(7) + most));
@@ -225,39 +225,39 @@ static void two_merge_into_the_best_one(void **state)
     assert_true(lineup.covered == before);
     sp_lineup_free(&lineup);
     sp_lineup_free(&scratch);
-    sp_table_free(&table);
+    sp_coverage_matrix_free(&matrix);
     job_close(&j);
 }
 
-/* Regrouping never loses, and a lineup is the same draft on all patches. */
+/* Regrouping never loses, and a lineup is the same partial layout on all patches. */
 static void regrouping_never_loses(void **state)
 {
     (void)state;
     for (int single = 0; single < 2; single++) {
         job j;
         sp_error error = {0};
-        sp_table table;
+        sp_coverage_matrix matrix;
         sp_lineup lineup, scratch;
         job_open(&j, single);
-        assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
-        assert_true(sp_lineup_create(&table, &lineup, &error) && sp_lineup_create(&table, &scratch, &error));
-        for (uint32_t first = 0; first + 2 < table.row_count; first++) {
+        assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
+        for (uint32_t first = 0; first + 2 < matrix.row_count; first++) {
             uint32_t rows[3] = {first, first + 1, first + 2};
-            if (!fits_port(&table, rows, 3))
+            if (!fits_port(&matrix, rows, 3))
                 continue;
             sp_lineup_set(&lineup, rows, 3);
             double budget = lineup.flow * (1 + SP_ROUNDING), before = lineup.covered;
             sp_lineup_regroup(&lineup, budget, &scratch);
             assert_true(lineup.covered >= before && lineup.flow <= budget);
-            sp_draft draft;
-            assert_true(sp_lineup_draft(&lineup, &draft, &error));
-            assert_true(fabs(draft.covered - lineup.covered) < 1e-5 * lineup.covered);
-            assert_true(fabs(draft.flow - lineup.flow) < 1e-12);
-            sp_draft_free(&draft);
+            sp_partial partial;
+            assert_true(sp_lineup_partial(&lineup, &partial, &error));
+            assert_true(fabs(partial.covered - lineup.covered) < 1e-5 * lineup.covered);
+            assert_true(fabs(partial.flow - lineup.flow) < 1e-12);
+            sp_partial_free(&partial);
         }
         sp_lineup_free(&lineup);
         sp_lineup_free(&scratch);
-        sp_table_free(&table);
+        sp_coverage_matrix_free(&matrix);
         job_close(&j);
     }
 }
@@ -269,28 +269,28 @@ static void tuned_poses_say_their_flow(void **state)
     job j;
     sp_error error = {0};
     sp_tuned tuned;
-    sp_draft draft;
+    sp_partial partial;
     job_open(&j, false);
     j.options.refine.flow = INFINITY;
     assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
-    assert_int_equal(tuned.candidates.make_count, 2 + 4);
+    assert_int_equal(tuned.candidates.variant_count, 2 + 4);
     assert_true(tuned.pool.count > j.pool.count);
     for (size_t i = 0; i < tuned.pool.count; i++) {
-        double flow = tuned.candidates.makes[tuned.pool.items[i].make].flow;
-        assert_true(sp_draft_create(&tuned.search, &draft, &error));
-        assert_true(sp_draft_add_pose(&tuned.search, &draft, tuned.pool.items[i], &error));
-        sp_tuned_settle(&tuned, &draft);
-        const sp_placed *placed = &draft.items[0];
+        double flow = tuned.candidates.variants[tuned.pool.items[i].variant].flow;
+        assert_true(sp_partial_create(&tuned.search, &partial, &error));
+        assert_true(sp_partial_add_pose(&tuned.search, &partial, tuned.pool.items[i], &error));
+        sp_tuned_settle(&tuned, &partial);
+        const sp_placed *placed = &partial.items[0];
         assert_true(placed->flow == flow);
         assert_true(fabs(sp_nozzle_flow(&placed->nozzle, &j.room.setup.liquid) - flow) < 1e-9 * flow);
         assert_true(flow >= 0.999 * placed->nozzle.type->flow_min && flow <= 1.001 * placed->nozzle.type->flow_max);
         sp_layout *layout = sp_layout_create(&placed->nozzle, 1, &error);
         sp_coverage *coverage = sp_evaluate_inverse(j.room.evaluator, layout, &error);
         /* single precision may see two texels at the edge otherwise */
-        assert_true(fabs(coverage->covered_area - draft.covered) < 2.1 * TEXEL * TEXEL);
+        assert_true(fabs(coverage->covered_area - partial.covered) < 2.1 * TEXEL * TEXEL);
         sp_coverage_destroy(coverage);
         sp_layout_destroy(layout);
-        sp_draft_free(&draft);
+        sp_partial_free(&partial);
     }
     sp_tuned_free(&tuned);
     job_close(&j);
@@ -299,7 +299,7 @@ static void tuned_poses_say_their_flow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(guesses_come_near_the_best),
+        cmocka_unit_test(enumeration_comes_near_the_best),
         cmocka_unit_test(two_merge_into_the_best_one),
         cmocka_unit_test(regrouping_never_loses),
         cmocka_unit_test(tuned_poses_say_their_flow),

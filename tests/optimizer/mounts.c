@@ -331,11 +331,11 @@ static void axes_fill_the_tilt(void **state)
         sp_error error = {0};
         assert_true(sp_candidates_create(r.evaluator, &options, &sites, &candidates, &error));
         assert_int_equal(sp_candidates_axes(&candidates, 0, 2)->count, 1); /* a ball is the same whatever its axis */
-        for (uint32_t make = 0; make < 2; make++) {
-            size_t count = sp_candidates_axes(&candidates, 0, make)->count;
+        for (uint32_t variant = 0; variant < 2; variant++) {
+            size_t count = sp_candidates_axes(&candidates, 0, variant)->count;
             double farthest = 0;
             for (uint32_t a = 0; a < count; a++) {
-                sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, make, a, 0}, sp_v(0, 0, 1));
+                sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, variant, a, 0}, sp_v(0, 0, 1));
                 double lean = acos(fmin(1, fmax(-1, sp_dot(nozzle.axis, mount.axis))));
                 assert_true(lean <= tilts[t] + 1e-7);
                 assert_true(fabs(sp_length(nozzle.axis) - 1) < 1e-12);
@@ -348,7 +348,7 @@ static void axes_fill_the_tilt(void **state)
                 if (sp_dot(d, mount.axis) < cos(tilts[t]))
                     continue;
                 for (uint32_t a = 0; a < count; a++) {
-                    sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, make, a, 0}, sp_v(0, 0, 1));
+                    sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, variant, a, 0}, sp_v(0, 0, 1));
                     nearest = fmin(nearest, acos(fmin(1, fmax(-1, sp_dot(nozzle.axis, d)))));
                 }
                 assert_true(nearest < 10 * DEGREE);

@@ -278,14 +278,14 @@ static inline size_t recount_pick(recount *r, size_t old)
 static inline sp_nozzle recount_aim(recount *r, const sp_nozzle *old, size_t *port)
 {
     const sp_place_options *options = &r->scene->options;
-    uint32_t site, make;
+    uint32_t site, variant;
     do {
         site = (uint32_t)recount_below(r, r->sites.count);
-        make = (uint32_t)recount_below(r, r->candidates.make_count);
-    } while (!sp_candidates_axes(&r->candidates, r->sites.items[site].mount, make)->count);
+        variant = (uint32_t)recount_below(r, r->candidates.variant_count);
+    } while (!sp_candidates_axes(&r->candidates, r->sites.items[site].mount, variant)->count);
     const sp_site *at = &r->sites.items[site];
     const sp_mount *mount = &options->mounts[at->mount];
-    const sp_make *own = &r->candidates.makes[make];
+    const sp_variant *own = &r->candidates.variants[variant];
     double low, high, least, most;
     sp_angle_range(options, own->type, &low, &high);
     sp_flow_range(options, &r->scene->room.setup, own->type, own->pressure, &least, &most);
@@ -428,16 +428,16 @@ static inline void recount_list_poses(recount *r)
     r->choices = calloc(r->candidates.pose_start[r->sites.count] + 2 * RECOUNT_MOST + 8, sizeof *r->choices);
     assert_non_null(r->choices);
     for (uint32_t site = 0; site < r->sites.count; site++)
-        for (uint32_t k = 0; k < r->candidates.make_count; k++) {
+        for (uint32_t k = 0; k < r->candidates.variant_count; k++) {
             uint32_t mount = r->sites.items[site].mount;
-            const sp_make *make = &r->candidates.makes[k];
+            const sp_variant *variant = &r->candidates.variants[k];
             size_t axes = sp_candidates_axes(&r->candidates, mount, k)->count;
             bool port = r->scene->options.mounts[mount].kind == SP_MOUNT_PORT;
             for (uint32_t a = 0; a < axes && !recount_port_taken(r->scene, mount); a++)
-                for (uint32_t roll = 0; roll < make->roll_count; roll++)
+                for (uint32_t roll = 0; roll < variant->roll_count; roll++)
                     r->choices[r->poses++] = (recount_choice){
                         .nozzle = sp_pose_nozzle(&r->candidates, &r->sites, (sp_pose){site, k, a, roll}, up),
-                        .flow = make->flow,
+                        .flow = variant->flow,
                         .port = port ? mount : SIZE_MAX};
         }
 }

@@ -1,11 +1,11 @@
-/* Candidates that all lie in memory, as the bounds want them: priced all at once, and in a line. */
+/* Candidates that all lie in memory, as the bounds want them: priced all at once, and in a list. */
 #ifndef STORED_H
 #define STORED_H
 
 #include "instance.h"
 
 #include "bound/bound.h"
-#include "bound/line.h"
+#include "bound/candidate_list.h"
 #include "ranking/ranking.h"
 
 typedef struct {
@@ -14,7 +14,7 @@ typedef struct {
     size_t most; /* rows to hand out at a time */
 } stored;
 
-static inline bool stored_price(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
+static inline bool stored_price(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
                                 sp_rows *rows, sp_error *error)
 {
     (void)all;
@@ -52,15 +52,15 @@ typedef struct {
     const sp_cover *cover;
     const sp_rows *rows;
     size_t *order; /* [rows], row at each position */
-    sp_line line;
+    sp_candidate_list list;
 } stored_line;
 
-static inline bool stored_line_price(void *user, const sp_prices *u, const uint8_t *alive, float *price,
+static inline bool stored_line_price(void *user, const sp_multipliers *u, const uint8_t *alive, float *price,
                                      sp_error *error)
 {
     (void)error;
     const stored_line *s = user;
-    for (size_t i = 0; i < s->line.count; i++)
+    for (size_t i = 0; i < s->list.count; i++)
         price[i] = alive[i] ? nextafterf((float)sp_rows_price(s->rows, s->order[i], u), INFINITY) : 0;
     return true;
 }
@@ -78,16 +78,16 @@ static inline void stored_line_create(const sp_cover *cover, const sp_rows *rows
 {
     size_t count = rows->count;
     *s = (stored_line){.cover = cover, .rows = rows, .order = malloc((count + 1) * sizeof *s->order)};
-    sp_line *line = &s->line;
-    *line = (sp_line){.user = s,
-                      .kind_start = calloc(count + 1, sizeof(size_t)),
-                      .weight = malloc((count + 1) * sizeof(uint32_t)),
-                      .run_start = calloc(count + 1, sizeof(size_t)),
-                      .run_port = malloc((count + 1) * sizeof(size_t)),
-                      .price = stored_line_price,
-                      .row = stored_line_row,
-                      .threads = cover->threads};
-    assert_true(s->order && line->kind_start && line->weight && line->run_start && line->run_port);
+    sp_candidate_list *list = &s->list;
+    *list = (sp_candidate_list){.user = s,
+                                .kind_start = calloc(count + 1, sizeof(size_t)),
+                                .weight = malloc((count + 1) * sizeof(uint32_t)),
+                                .run_start = calloc(count + 1, sizeof(size_t)),
+                                .run_port = malloc((count + 1) * sizeof(size_t)),
+                                .price = stored_line_price,
+                                .row = stored_line_row,
+                                .threads = cover->threads};
+    assert_true(s->order && list->kind_start && list->weight && list->run_start && list->run_port);
     sp_ranked *by_port = malloc((count + 1) * sizeof *by_port), *by_weight = malloc((count + 1) * sizeof *by_weight);
     assert_true(by_port && by_weight);
     for (size_t i = 0; i < count; i++)
@@ -99,24 +99,24 @@ static inline void stored_line_create(const sp_cover *cover, const sp_rows *rows
     for (size_t i = 0; i < count; i++) {
         size_t row = s->order[i] = by_port[by_weight[i].at].at;
         uint32_t weight = cover->weight[rows->tier[row]];
-        bool other = !i || line->weight[line->kind_count - 1] != weight;
+        bool other = !i || list->weight[list->kind_count - 1] != weight;
         if (other) {
-            line->kind_start[line->kind_count] = i;
-            line->weight[line->kind_count++] = weight;
+            list->kind_start[list->kind_count] = i;
+            list->weight[list->kind_count++] = weight;
         }
-        if (other || line->run_port[line->run_count - 1] != rows->port[row]) {
-            line->run_start[line->run_count] = i;
-            line->run_port[line->run_count++] = rows->port[row];
+        if (other || list->run_port[list->run_count - 1] != rows->port[row]) {
+            list->run_start[list->run_count] = i;
+            list->run_port[list->run_count++] = rows->port[row];
         }
     }
-    line->count = line->kind_start[line->kind_count] = line->run_start[line->run_count] = count;
+    list->count = list->kind_start[list->kind_count] = list->run_start[list->run_count] = count;
     free(by_port);
     free(by_weight);
 }
 
 static inline void stored_line_free(stored_line *s)
 {
-    sp_line_free(&s->line);
+    sp_candidate_list_free(&s->list);
     free(s->order);
 }
 

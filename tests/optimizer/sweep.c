@@ -20,7 +20,7 @@ typedef struct {
     double pressures[2];
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -80,11 +80,11 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     s->options.pressure_count = 2;
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     sp_error error = {0};
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
                                      &s->visibility, &error));
     assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
                                  &error));
@@ -121,9 +121,9 @@ static sp_pose pose_of(const stage *s, size_t number)
     while (candidates->pose_start[pose.site + 1] <= number)
         pose.site++;
     number -= candidates->pose_start[pose.site];
-    for (;; pose.make++) {
-        uint32_t rolls = (uint32_t)candidates->makes[pose.make].roll_count;
-        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.make)->count * rolls;
+    for (;; pose.variant++) {
+        uint32_t rolls = (uint32_t)candidates->variants[pose.variant].roll_count;
+        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.variant)->count * rolls;
         if (number < count) {
             pose.axis = (uint32_t)number / rolls;
             pose.roll = (uint32_t)number % rolls;
@@ -257,22 +257,22 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     float *items[2] = {malloc(room * sizeof(float)), malloc(room * sizeof(float))}, totals[2][SP_BINS];
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
-        const sp_make *make = &s.candidates.makes[pose.make];
-        const sp_view *view = &s.visibility.views[pose.site * 2 + make->launch];
+        const sp_variant *variant = &s.candidates.variants[pose.variant];
+        const sp_view *view = &s.visibility.views[pose.site * 2 + variant->launch];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
         /* of some arrivals enough for one nozzle alone */
         const double strength = 1 / (s.search.all * (0.3 + 2 * next_random(&random)));
-        sp_region region = sp_region_create(&make->spray, &frame, strength, 0);
+        sp_region region = sp_region_create(&variant->spray, &frame, strength, 0);
         sp_cull cull;
-        sp_cull_create(&s.visibility.bins, view, &make->spray, SP_COUNT_SHARE, &cull);
+        sp_cull_create(&s.visibility.bins, view, &variant->spray, SP_COUNT_SHARE, &cull);
         double naive[2] = {0}, first[2], sums[2];
         for (size_t i = 0; i < room; i++)
             for (int k = 0; k < 2; k++)
                 items[k][i] = (float)next_random(&random);
         for (size_t i = 0; i < view->count; i++)
             for (int k = 0; k < 2; k++)
-                naive[k] += part_of(view, i, &make->spray, &frame, strength) * (double)items[k][i];
+                naive[k] += part_of(view, i, &variant->spray, &frame, strength) * (double)items[k][i];
         for (size_t set = 0; set < sp_sweep_set_count; set++) {
             const sp_sweep_set *sweeps = sp_sweep_sets[set];
             if (!sweeps->available())
@@ -317,25 +317,25 @@ static void scores_are_what_fields_add(void **state)
         stage_open(&s, criterion, SP_TRAJECTORY_LINE);
         size_t patches = s.search.patch_count, poses = s.candidates.pose_start[s.sites.count];
         float *field = malloc(patches * sizeof *field);
-        sp_draft draft;
-        assert_true(sp_draft_create(&s.search, &draft, &error));
+        sp_partial partial;
+        assert_true(sp_partial_create(&s.search, &partial, &error));
         sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
         for (size_t p = 0; p < patches; p++) {
-            draft.wet[p] = (float)(1.5 * next_random(&random));
-            draft.dry[p] = (float)next_random(&random);
+            partial.wet[p] = (float)(1.5 * next_random(&random));
+            partial.dry[p] = (float)next_random(&random);
         }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.search, &draft, pose, 0);
+            sp_score score = sp_score_pose(sweeper, &s.search, &partial, pose, 0);
             sp_field_pose(&s.search, pose, field);
-            double gain = sp_field_gain(&s.search, &draft, field), room = 0;
+            double gain = sp_field_gain(&s.search, &partial, field), room = 0;
             for (size_t p = 0; p < patches; p++)
-                room += field[p] != 0 && draft.wet[p] < 1
+                room += field[p] != 0 && partial.wet[p] < 1
                             ? s.search.all * (double)s.search.area[p] *
                                   fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
-                                  (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
+                                  (1 - (double)sp_worth(&s.search, partial.wet[p], partial.dry[p]))
                             : 0;
             /* single precision may see two points on the pattern's very edge otherwise */
             assert_true(fabs(score.gain - gain) <= 1e-4 * gain + 2 * TEXEL * TEXEL);
@@ -345,15 +345,15 @@ static void scores_are_what_fields_add(void **state)
         assert_true(total > 0);
         /* what is wet by now counts only once the sweeper has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain;
+        double before = sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain;
         for (size_t p = 0; p < patches; p++)
-            draft.wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == before);
+            partial.wet[p] = 2;
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == before);
         sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == 0);
+        assert_true(sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
-        sp_draft_free(&draft);
+        sp_partial_free(&partial);
         stage_close(&s);
     }
 }

@@ -98,54 +98,55 @@ static double best_of(const instance *in, size_t water)
     return b.best;
 }
 
-/* Prices that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one nozzle
- * alone, and are of no use. */
-static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_prices *u, uint64_t *random)
+/* Multipliers that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one
+ * nozzle alone, and are of no use. */
+static void set_multipliers(instance *in, int way, size_t water, sp_valid_inequalities *inequalities, sp_multipliers *u,
+                            uint64_t *random)
 {
     sp_error error = {0};
     stored s = {&in->cover, &in->rows, 8};
     sp_pricer pricer = stored_pricer(&s);
     sp_bound bound;
-    assert_true(sp_prices_create(&in->cover, u, &error));
+    assert_true(sp_multipliers_create(&in->cover, u, &error));
     if (way == 3) {
-        sp_lifts_create(1, lifts);
-        u->lifts = lifts;
+        sp_valid_inequalities_create(1, inequalities);
+        u->inequalities = inequalities;
         for (size_t t = 0; t < in->cover.texel_count; t++) {
             u->plain[t] = 0;
-            u->lifted[t] = in->area[t];
-            u->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+            u->strengthened[t] = in->area[t];
+            u->kind[t] = SP_INEQUALITY_ALL_OR_NOTHING;
         }
     }
     if (way == 1) {
         assert_true(sp_bound_create(&in->cover, &pricer, &bound, &error));
         for (int round = 0; round < 4; round++)
             assert_true(sp_bound_lower(&bound, water, &error));
-        sp_prices_copy(&in->cover, &bound.dual.price, u);
-        *lifts = bound.lifts;
-        u->lifts = u->lifts ? lifts : NULL;
+        sp_multipliers_copy(&in->cover, &bound.dual.multipliers, u);
+        *inequalities = bound.inequalities;
+        u->inequalities = u->inequalities ? inequalities : NULL;
         sp_bound_free(&bound);
     }
     if (way == 2) {
-        sp_lifts_create(in->cover.nozzles, lifts);
-        u->lifts = in->cover.whole ? NULL : lifts;
+        sp_valid_inequalities_create(in->cover.nozzles, inequalities);
+        u->inequalities = in->cover.whole ? NULL : inequalities;
         for (size_t t = 0; t < in->cover.texel_count; t++) {
-            double part = u->lifts ? fmax(0, instance_random(random) - 0.5) : 0;
+            double part = u->inequalities ? fmax(0, instance_random(random) - 0.5) : 0;
             u->plain[t] = (float)(instance_random(random) * (1 - part)) * in->area[t];
-            u->lifted[t] = (float)part * in->area[t];
-            u->kind[t] = (uint8_t)(instance_random(random) * (double)lifts->kinds);
+            u->strengthened[t] = (float)part * in->area[t];
+            u->kind[t] = (uint8_t)(instance_random(random) * (double)inequalities->kinds);
         }
     }
 }
 
-static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_prices *u)
+static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_multipliers *u)
 {
     sp_error error = {0};
-    float *price = malloc((s->line.count + 1) * sizeof *price);
-    uint8_t *alive = malloc(s->line.count + 1);
-    memset(alive, 1, s->line.count + 1);
-    assert_true(s->line.price(s->line.user, u, alive, price, &error));
-    const sp_tuple_task task = {water, floor, bound, s->line.count, u, price};
-    sp_tuples *tuples = sp_tuples_create(s->cover, &s->line, &task, &error);
+    float *price = malloc((s->list.count + 1) * sizeof *price);
+    uint8_t *alive = malloc(s->list.count + 1);
+    memset(alive, 1, s->list.count + 1);
+    assert_true(s->list.price(s->list.user, u, alive, price, &error));
+    const sp_tuple_task task = {water, floor, bound, s->list.count, u, price};
+    sp_tuples *tuples = sp_tuples_create(s->cover, &s->list, &task, &error);
     assert_non_null(tuples);
     free(price);
     free(alive);
@@ -153,7 +154,7 @@ static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, do
 }
 
 /* Targets above and below the best, from the highest down. */
-static void check(instance *in, size_t water, const sp_prices *u, uint64_t *random)
+static void check(instance *in, size_t water, const sp_multipliers *u, uint64_t *random)
 {
     static const double parts[] = {1.2, 1.02, 1.0001, 0.97, 0.8, 0.5};
     sp_error error = {0};
@@ -187,8 +188,8 @@ static void no_layout_covers_more(void **state)
     uint64_t random = 5;
     for (uint64_t i = 0; i < INSTANCES; i++) {
         instance in;
-        sp_lifts lifts;
-        sp_prices u;
+        sp_valid_inequalities inequalities;
+        sp_multipliers u;
         size_t water = 26 + i % 30;
         instance_create(&in, 12, 14, i % 2, 1 + i % 4, water, i % 3, 0.1 + 0.03 * (double)(i % 20), 9177 + 1000 * i);
         in.cover.base = i % 5 ? 0 : 0.1;
@@ -199,9 +200,9 @@ static void no_layout_covers_more(void **state)
         if (i % 6 == 5)
             in.cover.repeats = false;
         water -= i % 8 == 7 ? 14 : 0;
-        set_prices(&in, (int)(i / 2 % 4), water, &lifts, &u, &random);
+        set_multipliers(&in, (int)(i / 2 % 4), water, &inequalities, &u, &random);
         check(&in, water, &u, &random);
-        sp_prices_free(&u);
+        sp_multipliers_free(&u);
         instance_free(&in);
     }
 }

@@ -1,9 +1,9 @@
-/* What bounds are made of is rounded to the safe side: water, lifted shares, and the price of every pose and row beside
- * what the public evaluator says that its nozzle does alone. */
+/* What bounds are made of is rounded to the safe side: water, strengthened shares, and the price of every pose and row
+ * beside what the public evaluator says that its nozzle does alone. */
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "certificate/pose_prices.h"
+#include "certificate/pose_pricing.h"
 #include "certificate/water_units.h"
 
 static double next_random(uint64_t *state)
@@ -53,14 +53,14 @@ static void layouts_within_a_flow_are_so_in_units(void **state)
     }
 }
 
-/* Shares that come to 1 do so lifted, whatever the lift, however small the most of them. */
-static void lifted_shares_still_suffice(void **state)
+/* Shares that come to 1 do so strengthened, whatever the inequality, however small the most of them. */
+static void strengthened_shares_still_suffice(void **state)
 {
     (void)state;
     uint64_t random = 3;
     for (size_t nozzles = 1; nozzles <= 9; nozzles++) {
-        sp_lifts lifts;
-        sp_lifts_create(nozzles, &lifts);
+        sp_valid_inequalities inequalities;
+        sp_valid_inequalities_create(nozzles, &inequalities);
         for (int trial = 0; trial < 4000; trial++) {
             float share[9];
             size_t count = 1 + (size_t)(next_random(&random) * (double)nozzles);
@@ -74,32 +74,33 @@ static void lifted_shares_still_suffice(void **state)
                 share[i] = fminf(1, nextafterf(share[i], 2));
                 sum += (double)share[i];
             }
-            for (size_t k = 0; k < lifts.kinds; k++) {
-                double lifted = 0;
+            for (size_t k = 0; k < inequalities.kinds; k++) {
+                double strengthened = 0;
                 for (size_t i = 0; i < count; i++)
-                    lifted += (double)sp_lift(&lifts, k, share[i]);
-                assert_true(lifted >= 1);
+                    strengthened += (double)sp_strengthen(&inequalities, k, share[i]);
+                assert_true(strengthened >= 1);
             }
         }
     }
 }
 
-/* What a candidate brings a texel in parts, lifted part by part, comes to no less than lifted as a whole. */
+/* What a candidate brings a texel in parts, strengthened part by part, comes to no less than strengthened as a whole.
+ */
 static void portions_come_to_the_whole(void **state)
 {
     (void)state;
     uint64_t random = 21;
     for (size_t nozzles = 1; nozzles <= 9; nozzles++) {
-        sp_lifts lifts;
-        sp_lifts_create(nozzles, &lifts);
+        sp_valid_inequalities inequalities;
+        sp_valid_inequalities_create(nozzles, &inequalities);
         for (int trial = 0; trial < 1000; trial++) {
             const float part = (float)next_random(&random), share = (float)next_random(&random);
             const float parts[] = {share * part, share - share * part};
-            for (size_t k = 0; k < lifts.kinds; k++) {
+            for (size_t k = 0; k < inequalities.kinds; k++) {
                 double sum = 0;
                 for (size_t i = 0; i < 2; i++)
-                    sum += (double)sp_lift_portion(&lifts, k, parts[i]);
-                assert_true(sum >= (double)sp_lift(&lifts, k, share));
+                    sum += (double)sp_strengthen_portion(&inequalities, k, parts[i]);
+                assert_true(sum >= (double)sp_strengthen(&inequalities, k, share));
             }
         }
     }
@@ -139,7 +140,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -148,12 +149,12 @@ typedef struct {
     size_t ports[2];
     float *need, *film_need; /* film_need NULL where film is not asked for */
     sp_cover cover;
-    sp_lifts lifts;
-    sp_prices prices;
+    sp_valid_inequalities inequalities;
+    sp_multipliers multipliers;
     sp_rows own;
     sp_pose_order order;
-    sp_line line;
-    sp_pose_prices *poses;
+    sp_candidate_list list;
+    sp_pose_pricing *poses;
 } stage;
 
 static void set_types(stage *s)
@@ -176,7 +177,7 @@ static void set_types(stage *s)
     s->options.type_count = TYPES;
 }
 
-static void set_cover(stage *s, uint64_t *random, bool lifted)
+static void set_cover(stage *s, uint64_t *random, bool strengthened)
 {
     sp_error error = {0};
     size_t patches = s->search.patch_count;
@@ -192,18 +193,18 @@ static void set_cover(stage *s, uint64_t *random, bool lifted)
                           .repeats = true,
                           .threads = 1};
     s->need = malloc(patches * sizeof *s->need);
-    sp_lifts_create(3, &s->lifts);
+    sp_valid_inequalities_create(3, &s->inequalities);
     s->film_need = s->walls ? malloc(patches * sizeof *s->film_need) : NULL;
     for (size_t t = 0; s->film_need && t < patches; t++)
         s->film_need[t] = t % 13 ? 1 : 0.3f;
-    assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
-    s->prices.lifts = lifted ? &s->lifts : NULL;
+    assert_true(s->need && sp_multipliers_create(&s->cover, &s->multipliers, &error));
+    s->multipliers.inequalities = strengthened ? &s->inequalities : NULL;
     for (size_t t = 0; t < patches; t++) {
-        double part = lifted ? fmax(0, next_random(random) - 0.5) : 0;
+        double part = strengthened ? fmax(0, next_random(random) - 0.5) : 0;
         s->need[t] = t % 17 || s->search.single ? 1 : 0.5f;
-        s->prices.plain[t] = (float)(next_random(random) * (1 - part)) * s->search.area[t];
-        s->prices.lifted[t] = (float)part * s->search.area[t];
-        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->lifts.kinds);
+        s->multipliers.plain[t] = (float)(next_random(random) * (1 - part)) * s->search.area[t];
+        s->multipliers.strengthened[t] = (float)part * s->search.area[t];
+        s->multipliers.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
 
@@ -235,29 +236,29 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
                               .to = sp_v(0.2, 0.4, 0.9)};
     s->mounts[1] =
         (sp_mount){.kind = SP_MOUNT_PORT, .position = sp_v(0.5, -0.4, 1), .axis = sp_v(0, 0, -1), .tilt = 40 * DEGREE};
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     s->evaluator = s->room.evaluator;
     if (criterion.film > 0)
         s->evaluator = s->walls = sp_evaluator_resample(s->room.evaluator, TEXEL, &error);
     assert_string_equal(error.message, "");
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(
-        sp_visibility_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->watch, &s->visibility, &error));
+    assert_true(sp_visibility_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->deadline, &s->visibility,
+                                     &error));
     assert_true(
         sp_search_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search, &error));
     set_cover(s, random, trajectory == SP_TRAJECTORY_LINE);
-    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->film_need, s->ports, &error);
+    s->poses = sp_pose_pricing_create(&s->search, &s->cover, s->tier, s->need, s->film_need, s->ports, &error);
     assert_non_null(s->poses);
     assert_true(sp_pose_order_create(&s->search, &s->cover, s->tier, s->ports, &s->own, &s->order, &error));
-    assert_true(sp_pose_line(s->poses, &s->order, &s->line, &error));
+    assert_true(sp_pose_list(s->poses, &s->order, &s->list, &error));
 }
 
 static void stage_close(stage *s)
 {
-    sp_pose_prices_destroy(s->poses);
+    sp_pose_pricing_destroy(s->poses);
     sp_pose_order_free(&s->order);
-    sp_prices_free(&s->prices);
+    sp_multipliers_free(&s->multipliers);
     free(s->need);
     free(s->film_need);
     sp_search_free(&s->search);
@@ -265,11 +266,11 @@ static void stage_close(stage *s)
     sp_candidates_free(&s->candidates);
     sp_sites_free(&s->sites);
     sp_evaluator_destroy(s->walls);
-    free(s->watch.stages);
+    free(s->deadline.stages);
     room_close(&s->room);
 }
 
-/* What a pose brings at these prices, by sp_evaluate_inverse alone. */
+/* What a pose brings at these multipliers, by sp_evaluate_inverse alone. */
 static double worth(const stage *s, sp_pose pose)
 {
     sp_error error = {0};
@@ -286,8 +287,11 @@ static double worth(const stage *s, sp_pose pose)
             share = 0;
         if (s->film_need)
             share = fmax(share, fmin(1, coverage->deposits.film[t] / film / (double)s->film_need[t]));
-        double lift = s->prices.lifts ? (double)sp_lift(&s->lifts, s->prices.kind[t], (float)share) : 0;
-        price += fmax(part, share) * (double)s->prices.plain[t] + fmax(part, lift) * (double)s->prices.lifted[t];
+        double strong = s->multipliers.inequalities
+                            ? (double)sp_strengthen(&s->inequalities, s->multipliers.kind[t], (float)share)
+                            : 0;
+        price += fmax(part, share) * (double)s->multipliers.plain[t] +
+                 fmax(part, strong) * (double)s->multipliers.strengthened[t];
     }
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
@@ -305,26 +309,27 @@ static void check_prices(stage *s)
     double prices = 0, worths = 0;
     assert_true(sp_offers_create(1, s->weight, 1, 3, true, &offers, &error));
     sp_pricer pricer = sp_pose_pricer(s->poses);
-    assert_true(pricer.price(pricer.user, &s->prices, needed, true, &offers, &rows, &error));
-    const float *last = sp_pose_prices_last(s->poses);
-    size_t stride = 1 + s->order.line.count / POSES;
+    assert_true(pricer.price(pricer.user, &s->multipliers, needed, true, &offers, &rows, &error));
+    const float *last = sp_pose_pricing_last(s->poses);
+    size_t stride = 1 + s->order.list.count / POSES;
     for (size_t block = 0; block < s->order.block_count; block++)
         for (size_t at = s->order.blocks[block].start; at < s->order.blocks[block + 1].start; at += stride) {
             sp_pose pose = sp_pose_order_at(&s->order, block, at);
             double exact = worth(s, pose), swept = (double)last[at];
             size_t row = rows.count;
-            assert_true(sp_pose_prices_add(s->poses, pose, &rows, &error));
-            double by_row = sp_rows_price(&rows, row, &s->prices);
+            assert_true(sp_pose_pricing_add(s->poses, pose, &rows, &error));
+            double by_row = sp_rows_price(&rows, row, &s->multipliers);
             if (exact > swept || exact > by_row)
                 fail_msg("type %zu is worth %.9g, swept %.9g, by its row %.9g",
-                         (size_t)(s->candidates.makes[pose.make].type - s->type), exact, swept, by_row);
+                         (size_t)(s->candidates.variants[pose.variant].type - s->type), exact, swept, by_row);
             prices += swept;
             worths += exact;
         }
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);
-    /* of cells that fall short of the flux little is known of what a lift makes of some of them, and where one nozzle
-     * alone must do not even whether both arcs to them do so together */
-    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths || (s->search.single && !s->prices.lifts));
+    /* of cells that fall short of the flux little is known of what an inequality makes of some of them, and where one
+     * nozzle alone must do not even whether both arcs to them do so together */
+    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths ||
+                (s->search.single && !s->multipliers.inequalities));
     sp_rows_free(&rows);
     sp_offers_free(&offers);
 }
@@ -351,7 +356,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_within_a_flow_are_so_in_units),
-        cmocka_unit_test(lifted_shares_still_suffice),
+        cmocka_unit_test(strengthened_shares_still_suffice),
         cmocka_unit_test(portions_come_to_the_whole),
         cmocka_unit_test(what_falls_short_does_not_cover),
         cmocka_unit_test(no_pose_is_worth_more_than_its_price),

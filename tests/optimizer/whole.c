@@ -135,15 +135,15 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
 static size_t count_patches(const job *j)
 {
     sp_error error = {0};
-    sp_watch watch = sp_watch_start(&j->options.run);
+    sp_deadline deadline = sp_deadline_start(&j->options.run);
     sp_sites sites = {0};
     sp_candidates candidates = {0};
     sp_evaluator *resampled = NULL;
     sp_visibility visibility;
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &sites, &candidates, &error));
-    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &sites, &candidates, &watch, &resampled, &visibility,
-                                  &error));
+    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &sites, &candidates, &deadline, &resampled,
+                                  &visibility, &error));
     size_t count = sp_evaluator_patches(visibility.evaluator)->count;
     sp_visibility_free(&visibility);
     sp_evaluator_destroy(resampled);
@@ -164,7 +164,7 @@ static void in_a_hurry_few_patches_are_seen(void **state)
     room_close(&j.room);
 }
 
-/* What the placement has once it would look for other drafts of the candidates. */
+/* What the placement has once it would look for other layouts of the candidates. */
 static sp_proposal *place_until_exchange(job *j, double time_limit)
 {
     stopper stop = {"exchange", 0, 0};
@@ -176,7 +176,7 @@ static sp_proposal *place_until_exchange(job *j, double time_limit)
     return proposal;
 }
 
-/* In a hurry a draft that reaches the target has been refined by then, and none at leisure. */
+/* In a hurry a layout that reaches the target has been refined by then, and none at leisure. */
 static void in_a_hurry_the_proposal_comes_first(void **state)
 {
     (void)state;

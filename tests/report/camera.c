@@ -28,13 +28,13 @@ static void nozzles_around_a_machine_are_in_the_picture(void **state)
     sp_layout *layout = sp_layout_create(nozzles, 4, &error);
     sp_design design = {.name = "manual", .evaluator = evaluator, .layout = layout};
     sp_result result = {.design_count = 1, .designs = &design};
-    for (int view = 0; view < SP_VIEWS; view++) {
+    for (int viewpoint = 0; viewpoint < SP_VIEWPOINTS; viewpoint++) {
         double xy[2];
-        sp_camera camera = sp_camera_create(evaluator, &result, &sp_views[view], 900);
+        sp_camera camera = sp_camera_create(evaluator, &result, &sp_viewpoints[viewpoint], 900);
         for (size_t i = 0; i < 4; i++)
             assert_int_equal(sp_camera_shows(&camera, nozzles[i].position, xy), i < 3);
         assert_true(sp_camera_shows(&camera, sp_v(0, 0, TANK_HEIGHT + TANK_DISH), xy));
-        sp_camera without = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
+        sp_camera without = sp_camera_create(evaluator, &(sp_result){0}, &sp_viewpoints[viewpoint], 900);
         assert_true(camera.size == without.size);
         assert_true(sp_distance(camera.eye, camera.centre) < 3 * sp_distance(without.eye, without.centre));
     }
@@ -71,7 +71,7 @@ static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
     sp_nozzle nozzle = tank_manual[0];
     nozzle.type = &type;
     sp_layout layout = {1, &nozzle};
-    sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[0], 900);
+    sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_viewpoints[0], 900);
     sp_text text = {0};
     sp_overlay_sprays(&text, &camera, evaluator, &layout);
     sp_labels_nozzles(&(sp_labels){0}, &text, &camera, &layout);
@@ -109,8 +109,8 @@ static void names_stand_clear_of_each_other(void **state)
         nozzles[i].position = sp_v(0.01 * (i % 4), 0, 1 + 0.01 * (i / 4));
     }
     sp_layout layout = {NOZZLES, nozzles};
-    for (int view = 0; view < SP_VIEWS; view++) {
-        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
+    for (int viewpoint = 0; viewpoint < SP_VIEWPOINTS; viewpoint++) {
+        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_viewpoints[viewpoint], 900);
         sp_text text = {0};
         sp_labels labels = {.width = camera.width, .height = camera.height};
         sp_labels_nozzles(&labels, &text, &camera, &layout);
@@ -137,8 +137,8 @@ static void pictures_are_cropped_to_what_is_cleaned(void **state)
     sp_setup setup = tank_setup(mesh, 0.05);
     sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
     sp_result result = {0};
-    for (int view = 0; view < SP_VIEWS; view++) {
-        sp_camera camera = sp_camera_create(evaluator, &result, &sp_views[view], 900);
+    for (int viewpoint = 0; viewpoint < SP_VIEWPOINTS; viewpoint++) {
+        sp_camera camera = sp_camera_create(evaluator, &result, &sp_viewpoints[viewpoint], 900);
         double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, xy[2];
         for (uint32_t t = 0; t < mesh->triangle_count; t++)
             for (int k = 0; k < 3 && setup.surfaces[mesh->part[t]].clean; k++) {
@@ -167,8 +167,8 @@ static void the_bar_is_to_scale(void **state)
     sp_mesh *mesh = tank_mesh(24, &error);
     sp_setup setup = tank_setup(mesh, 0.05);
     sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
-    for (int view = 0; view < SP_VIEWS; view++) {
-        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
+    for (int viewpoint = 0; viewpoint < SP_VIEWPOINTS; viewpoint++) {
+        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_viewpoints[viewpoint], 900);
         sp_text text = {0};
         sp_overlay_scale(&text, &camera);
         double left, right, length, from[2], to[2];
@@ -180,9 +180,9 @@ static void the_bar_is_to_scale(void **state)
         sp_camera_project(&camera, sp_along(camera.centre, length / 1000, camera.right), to);
         assert_true(fabs((to[0] - from[0]) - (right - left)) < 0.2);
         assert_int_equal(count(text.text, ">x</text>") + count(text.text, ">y</text>") + count(text.text, ">z</text>"),
-                         view == 0   ? 2
-                         : view == 1 ? 3
-                                     : 3);
+                         viewpoint == 0   ? 2
+                         : viewpoint == 1 ? 3
+                                          : 3);
         free(text.text);
     }
     sp_evaluator_destroy(evaluator);

@@ -4,7 +4,7 @@
 #include "../optimizer/floor.h"
 
 #include "ceres/least_squares.h"
-#include "refine/freedom.h"
+#include "refine/pose_parameters.h"
 
 #include <stdio.h>
 
@@ -110,26 +110,26 @@ static void through_the_vertical(void **state)
     sp_vec3 start = sp_unit(sp_v(0.05, 0.02, -1)), aside = sp_unit(sp_cross(start, sp_v(0, 0, 1)));
     sp_nozzle nozzle = {
         .name = "n", .type = &j.type, .position = sp_v(0.1, 0, 1), .axis = start, .roll = 0.4, .pressure = 2e5};
-    sp_freedom freedom = {.start = nozzle,
-                          .origin = nozzle,
-                          .up = j.room.setup.up,
-                          .reference = sp_v(0, 0, -1),
-                          .tilt = 1,
-                          .axis_limit = 0.5,
-                          .across = {aside, sp_cross(start, aside)},
-                          .count = 2,
-                          .kind = {SP_UNKNOWN_AXIS, SP_UNKNOWN_AXIS},
-                          .move = {aside, sp_cross(start, aside)},
-                          .low = {-0.5, -0.5},
-                          .high = {0.5, 0.5}};
-    double away = atan2(hypot(start.x, start.y), -start.z), way = freedom.move[1].z < 0 ? 1 : -1, last = 0;
+    sp_pose_parameters parameters = {.start = nozzle,
+                                     .origin = nozzle,
+                                     .up = j.room.setup.up,
+                                     .reference = sp_v(0, 0, -1),
+                                     .tilt = 1,
+                                     .axis_limit = 0.5,
+                                     .across = {aside, sp_cross(start, aside)},
+                                     .count = 2,
+                                     .kind = {SP_UNKNOWN_AXIS, SP_UNKNOWN_AXIS},
+                                     .move = {aside, sp_cross(start, aside)},
+                                     .low = {-0.5, -0.5},
+                                     .high = {0.5, 0.5}};
+    double away = atan2(hypot(start.x, start.y), -start.z), way = parameters.move[1].z < 0 ? 1 : -1, last = 0;
     static const double steps[] = {-1e-2, -1e-5, -1e-6, -9e-7, -1e-8, -1e-13, 0, 1e-13, 1e-8, 9e-7, 1e-6, 1e-5, 1e-2};
     for (int beside = 0; beside < 3; beside++) {
         sp_frame before = {0};
         for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
             sp_error error = {0};
-            sp_nozzle led = sp_freedom_nozzle(&freedom, (double[]){beside * 5e-7, way * (away + steps[i])});
-            sp_frame frame = sp_nozzle_frame(led.axis, led.roll, freedom.up);
+            sp_nozzle led = sp_pose_parameters_nozzle(&parameters, (double[]){beside * 5e-7, way * (away + steps[i])});
+            sp_frame frame = sp_nozzle_frame(led.axis, led.roll, parameters.up);
             sp_layout *layout = sp_layout_create(&led, 1, &error);
             sp_coverage *coverage = sp_evaluate_inverse(j.room.evaluator, layout, &error);
             double step = i ? steps[i] - steps[i - 1] : 0;

@@ -160,7 +160,8 @@ static void compare(const sp_mesh *mesh, random_source *source, double scale, sp
 
 /* Rays of one origin, which go through the hierarchy together: all kinds of them, and some that end or begin right at
  * a hit. */
-static void compare_fan(const sp_mesh *mesh, random_source *source, double scale, sp_vec3 offset, size_t count)
+static void compare_common_origin(const sp_mesh *mesh, random_source *source, double scale, sp_vec3 offset,
+                                  size_t count)
 {
     static const sp_vec3 no_pull = {0, 0, 0};
     sp_tracer *none = make_tracer(mesh, SP_ACCELERATOR_NONE), *bvh = make_tracer(mesh, SP_ACCELERATOR_BVH);
@@ -211,8 +212,8 @@ static void random_meshes(void **state)
         sp_vec3 offset = i < 6 ? sp_v(0, 0, 0) : sp_v(100 * scale, -1000 * scale, 10 * scale);
         sp_mesh *mesh = random_triangles(&source, i % 2 ? 40 : 700, scale, offset);
         compare(mesh, &source, scale, offset, RAYS);
-        for (int fan = 0; fan < 5; fan++)
-            compare_fan(mesh, &source, scale, offset, RAYS / 2);
+        for (int round = 0; round < 5; round++)
+            compare_common_origin(mesh, &source, scale, offset, RAYS / 2);
         sp_mesh_destroy(mesh);
     }
 }
@@ -225,13 +226,13 @@ static void lattices(void **state)
         sp_vec3 offset = sp_v(-0.5 * scales[i], -0.25 * scales[i], 0);
         sp_mesh *mesh = lattice(5, scales[i], offset);
         compare(mesh, &source, scales[i], offset, RAYS);
-        for (int fan = 0; fan < 5; fan++)
-            compare_fan(mesh, &source, scales[i], offset, RAYS / 2);
+        for (int round = 0; round < 5; round++)
+            compare_common_origin(mesh, &source, scales[i], offset, RAYS / 2);
         sp_mesh_destroy(mesh);
     }
 }
 
-static void a_fan_of_needles(void **state)
+static void needles_around_a_vertex(void **state)
 {
     (void)state;
     enum { N = 500 };
@@ -244,8 +245,8 @@ static void a_fan_of_needles(void **state)
     random_source source = {3};
     sp_mesh *mesh = make_mesh(points, N + 1, (const uint32_t(*)[3])triangles, N);
     compare(mesh, &source, 1, sp_v(0, 0, 0), RAYS);
-    for (int fan = 0; fan < 5; fan++)
-        compare_fan(mesh, &source, 1, sp_v(0, 0, 0), RAYS);
+    for (int round = 0; round < 5; round++)
+        compare_common_origin(mesh, &source, 1, sp_v(0, 0, 0), RAYS);
     sp_mesh_destroy(mesh);
 }
 
@@ -308,7 +309,7 @@ static void the_horse(void **state)
     assert_int_equal(mesh->triangle_count, 39698);
     random_source source = {4};
     compare(mesh, &source, 0.5, sp_v(0, 0, 0), RAYS / 20);
-    compare_fan(mesh, &source, 0.5, sp_v(0, 0, 0), RAYS / 3);
+    compare_common_origin(mesh, &source, 0.5, sp_v(0, 0, 0), RAYS / 3);
     sp_mesh_destroy(mesh);
 }
 
@@ -349,9 +350,9 @@ static void threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_meshes),          cmocka_unit_test(lattices),
-        cmocka_unit_test(a_fan_of_needles),       cmocka_unit_test(one_triangle_and_none),
-        cmocka_unit_test(nonsense_hits_nothing),  cmocka_unit_test(the_horse),
+        cmocka_unit_test(random_meshes),           cmocka_unit_test(lattices),
+        cmocka_unit_test(needles_around_a_vertex), cmocka_unit_test(one_triangle_and_none),
+        cmocka_unit_test(nonsense_hits_nothing),   cmocka_unit_test(the_horse),
         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,7 @@
 #include "trace/parabola/parabola_bvh.h"
 
 #define SP_KERNEL(name) name##_tested
-void sp_bvh_parabolas_tested(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
+void sp_bvh_parabolas_tested(sp_parabola_queue *queue, sp_parabola_flight *flights, int most);
 #include "trace/parabola/parabola_kernel.h"
 
 #ifdef SPRAYPLAN_SANITIZE
@@ -112,14 +112,14 @@ static sp_ray draw_flight(random_source *source, const world *w, sp_vec3 *gravit
 }
 
 /* That the path to a triangle's block is taken, and the triangle there. */
-static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle, double t, double last)
+static void check_path(const world *w, const sp_parabola_flight *flight, uint32_t triangle, double t, double last)
 {
-    float way = (float)((t - jet->arc.start) * jet->arc.rate), slack = 0x1p-18f;
+    float way = (float)((t - flight->arc.start) * flight->arc.rate), slack = 0x1p-18f;
     wide from, to;
     float first_way[8], last_way[8];
     place at = w->block_place[w->block[triangle]];
     for (int level = 0; at.node != SP_NONE; level++, at = w->node_place[at.node]) {
-        enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
+        enter_children(&w->bvh.nodes[at.node], &flight->arc, flight->arc.aligned, &from, &to);
         wide_store(first_way, from);
         wide_store(last_way, to);
         uint32_t mask = wide_at_most(from, to);
@@ -129,7 +129,7 @@ static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle,
         if (level > 0)
             continue;
         const sp_bvh_block *block = &w->bvh.blocks[w->block[triangle]];
-        chord c = chord_of(&jet->arc, first_way[at.child], last_way[at.child]);
+        chord c = chord_of(&flight->arc, first_way[at.child], last_way[at.child]);
         verdict found;
         test_block(block, &c, &found);
         bool maybe = false;
@@ -141,20 +141,20 @@ static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle,
 }
 
 /* That what is taken for sure within the piece is hit, and when it says. */
-static void check_sure(const world *w, const sp_bvh_jet *jet, const double times[COUNT], tally *seen)
+static void check_sure(const world *w, const sp_parabola_flight *flight, const double times[COUNT], tally *seen)
 {
-    const sp_bvh_arc *arc = &jet->arc;
+    const sp_bvh_arc *arc = &flight->arc;
     for (uint32_t b = 0; b < w->bvh.block_count; b++) {
         const sp_bvh_block *block = &w->bvh.blocks[b];
         place at = w->block_place[b];
         float first_way[8], last_way[8];
         wide from, to;
-        enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
+        enter_children(&w->bvh.nodes[at.node], &flight->arc, flight->arc.aligned, &from, &to);
         wide_store(first_way, from);
         wide_store(last_way, to);
         if (!(wide_at_most(from, to) >> at.child & 1))
             continue;
-        chord c = chord_of(&jet->arc, first_way[at.child], last_way[at.child]);
+        chord c = chord_of(&flight->arc, first_way[at.child], last_way[at.child]);
         verdict found;
         test_block(block, &c, &found);
         for (int slot = 0; slot < SP_BVH_WIDTH; slot++) {
@@ -185,40 +185,40 @@ static bool same_arcs(const sp_bvh_arc *a, const sp_bvh_arc *b)
     return same;
 }
 
-/* That flights prepared many at a time begin as those that are prepared alone. */
+/* That flights prepared many at a time begin as those that are prepared singly. */
 static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, tally *seen)
 {
-    static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = {
+    static void (*const prepares[])(const sp_parabola_queue *, sp_bvh_starts *) = {
         sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
-    static sp_bvh_jet jet;
+    static sp_parabola_flight flight;
     sp_ray_search search = sp_ray_search_start(ray, false);
     sp_parabola parabola;
     double from = search.t_min, last = search.limit;
-    jet.asked = ray;
-    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&w->bvh, pull, &jet, &from, &last);
+    flight.asked = ray;
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, pull, &flight, &from, &last);
     if ((pull->vector[0] != 0) + (pull->vector[1] != 0) + (pull->vector[2] != 0) != 1)
         return;
     if (fitness != SP_BVH_READY || !sp_parabola_start(&parabola, ray, pull, w->bvh.low, w->bvh.high))
         return;
     double to = sp_parabola_turn(&parabola, from, last);
-    fitness = sp_bvh_arc_prepare(pull, &jet, from, to);
+    fitness = sp_bvh_arc_prepare(pull, &flight, from, to);
     for (int set = 0; set < SP_INSTRUCTIONS_COUNT; set++) {
         if (!sp_instructions_available((sp_instructions)set))
             continue;
-        static sp_bvh_jets jets;
+        static sp_parabola_queue queue;
         sp_bvh_arc arc;
-        jets = (sp_bvh_jets){.bvh = &w->bvh, .pull = pull, .rays = ray, .aligned = true};
-        jets.axis[0] = pull->vector[0] != 0 ? 0 : pull->vector[1] != 0 ? 1 : 2;
-        jets.axis[1] = jets.axis[0] == 2 ? 0 : jets.axis[0] + 1;
-        jets.axis[2] = jets.axis[0] == 0 ? 2 : jets.axis[0] - 1;
-        jets.starts.count = 1;
-        prepares[set](&jets, &jets.starts);
-        assert_true(jets.starts.fits[0] == SP_BVH_FAR || jets.starts.fits[0] == fitness);
-        if (jets.starts.fits[0] != SP_BVH_READY)
+        queue = (sp_parabola_queue){.bvh = &w->bvh, .pull = pull, .rays = ray, .aligned = true};
+        queue.axis[0] = pull->vector[0] != 0 ? 0 : pull->vector[1] != 0 ? 1 : 2;
+        queue.axis[1] = queue.axis[0] == 2 ? 0 : queue.axis[0] + 1;
+        queue.axis[2] = queue.axis[0] == 0 ? 2 : queue.axis[0] - 1;
+        queue.starts.count = 1;
+        prepares[set](&queue, &queue.starts);
+        assert_true(queue.starts.fits[0] == SP_BVH_FAR || queue.starts.fits[0] == fitness);
+        if (queue.starts.fits[0] != SP_BVH_READY)
             continue;
-        sp_bvh_start_take(&jets, 0, &arc);
-        assert_true(jets.starts.to[0] == to && jets.starts.end[0] == last && jets.starts.later[0] == (to < last));
-        assert_true(same_arcs(&arc, &jet.arc));
+        sp_bvh_start_take(&queue, 0, &arc);
+        assert_true(queue.starts.to[0] == to && queue.starts.end[0] == last && queue.starts.later[0] == (to < last));
+        assert_true(same_arcs(&arc, &flight.arc));
         seen->starts++;
     }
 }
@@ -227,34 +227,34 @@ static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tal
 {
     sp_pull pull = sp_pull_of(gravity);
     sp_ray_search search = sp_ray_search_start(ray, false);
-    static sp_bvh_jet jet;
-    jet.asked = ray;
+    static sp_parabola_flight flight;
+    flight.asked = ray;
     double from = search.t_min, last = search.limit, times[COUNT];
     sp_parabola parabola;
     assert_true(sp_parabola_start(&parabola, ray, &pull, w->bvh.low, w->bvh.high));
     for (uint32_t t = 0; t < w->mesh->triangle_count; t++) {
-        sp_ray_search alone = search;
+        sp_ray_search single = search;
         sp_corners corners;
         sp_bvh_corners(&w->bvh, t, corners);
-        sp_parabola_test(&parabola, (const double(*)[3])corners, t, &alone);
-        times[t] = alone.best.t;
+        sp_parabola_test(&parabola, (const double(*)[3])corners, t, &single);
+        times[t] = single.best.t;
     }
-    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&w->bvh, &pull, &jet, &from, &last);
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, &pull, &flight, &from, &last);
     for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++)
         assert_true(times[t] == INFINITY || (fitness == SP_BVH_READY && times[t] >= from && times[t] <= last));
     while (fitness != SP_BVH_FAR && from <= last) {
         double to = sp_parabola_turn(&parabola, from, last);
-        fitness = sp_bvh_arc_prepare(&pull, &jet, from, to);
+        fitness = sp_bvh_arc_prepare(&pull, &flight, from, to);
         seen->pieces++;
         for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++) {
             if (!(times[t] >= from && times[t] <= to))
                 continue;
             seen->hits++;
             assert_int_equal(fitness, SP_BVH_READY);
-            check_path(w, &jet, t, times[t], jet.arc.last);
+            check_path(w, &flight, t, times[t], flight.arc.last);
         }
         if (fitness == SP_BVH_READY)
-            check_sure(w, &jet, times, seen);
+            check_sure(w, &flight, times, seen);
         if (!(to < last))
             break;
         from = to;

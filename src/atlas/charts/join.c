@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The two vertices, one in each sheet, where a half-edge of the run begins. */
+/* The two vertices, one in each sheet, where a half-edge of the shared boundary begins. */
 static void pair_of(const sp_sheets *sheets, uint32_t half_edge, uint32_t pair[2])
 {
     pair[0] = sp_begin(sheets, half_edge);
@@ -37,12 +37,12 @@ static void add_point(moments *m, const moments *centre, const double *a, const 
     m->sine += weight * (ay * bx - ax * by);
 }
 
-static moments sum_over(const sp_sheets *sheets, const sp_run *run, const moments *centre)
+static moments sum_over(const sp_sheets *sheets, const sp_shared_boundary *shared, const moments *centre)
 {
     moments m = {0};
-    const sp_sheet *a = &sheets->items[sheets->owner[run->first / 3]], *b = &sheets->items[run->other];
-    uint32_t h = run->first, pair[2];
-    for (uint32_t i = 0; i < run->count; i++, h = sp_boundary_next(sheets, h)) {
+    const sp_sheet *a = &sheets->items[sheets->owner[shared->first / 3]], *b = &sheets->items[shared->other];
+    uint32_t h = shared->first, pair[2];
+    for (uint32_t i = 0; i < shared->count; i++, h = sp_boundary_next(sheets, h)) {
         double half = 0.5 * sp_edge_length(sheets, h);
         pair_of(sheets, h, pair);
         add_point(&m, centre, a->at[pair[0]], b->at[pair[1]], half);
@@ -66,22 +66,22 @@ static double squared_gap(const sp_fit *fit, const double a[2], const double b[2
     return (q[0] - a[0]) * (q[0] - a[0]) + (q[1] - a[1]) * (q[1] - a[1]);
 }
 
-sp_fit sp_join_fit(const sp_sheets *sheets, const sp_run *run)
+sp_fit sp_join_fit(const sp_sheets *sheets, const sp_shared_boundary *shared)
 {
-    moments centre = sum_over(sheets, run, NULL);
+    moments centre = sum_over(sheets, shared, NULL);
     for (int k = 0; k < 2; k++) {
         centre.a[k] /= centre.weight;
         centre.b[k] /= centre.weight;
     }
-    moments turn = sum_over(sheets, run, &centre);
+    moments turn = sum_over(sheets, shared, &centre);
     double length = hypot(turn.cosine, turn.sine);
     sp_fit fit = {.cosine = length > 0 ? turn.cosine / length : 1, .sine = length > 0 ? turn.sine / length : 0};
     memcpy(fit.from, centre.b, sizeof fit.from);
     memcpy(fit.to, centre.a, sizeof fit.to);
-    const sp_sheet *a = &sheets->items[sheets->owner[run->first / 3]], *b = &sheets->items[run->other];
-    uint32_t h = run->first, pair[2];
+    const sp_sheet *a = &sheets->items[sheets->owner[shared->first / 3]], *b = &sheets->items[shared->other];
+    uint32_t h = shared->first, pair[2];
     double sum = 0;
-    for (uint32_t i = 0; i < run->count; i++, h = sp_boundary_next(sheets, h)) {
+    for (uint32_t i = 0; i < shared->count; i++, h = sp_boundary_next(sheets, h)) {
         double half = 0.5 * sp_edge_length(sheets, h);
         pair_of(sheets, h, pair);
         sum += half * squared_gap(&fit, a->at[pair[0]], b->at[pair[1]]);
@@ -92,9 +92,9 @@ sp_fit sp_join_fit(const sp_sheets *sheets, const sp_run *run)
     return fit;
 }
 
-bool sp_join(const sp_sheets *sheets, const sp_run *run, const sp_fit *fit, sp_sheet *joined)
+bool sp_join(const sp_sheets *sheets, const sp_shared_boundary *shared, const sp_fit *fit, sp_sheet *joined)
 {
-    const sp_sheet *a = &sheets->items[sheets->owner[run->first / 3]], *b = &sheets->items[run->other];
+    const sp_sheet *a = &sheets->items[sheets->owner[shared->first / 3]], *b = &sheets->items[shared->other];
     size_t vertices = a->vertex_count + b->vertex_count, triangles = a->triangle_count + b->triangle_count;
     uint32_t *link = malloc((vertices + 1) * sizeof *link), *number = malloc((vertices + 1) * sizeof *number);
     bool good = link && number && sp_sheet_allocate(joined, triangles, vertices);
@@ -112,8 +112,8 @@ bool sp_join(const sp_sheets *sheets, const sp_run *run, const sp_fit *fit, sp_s
             place(fit, b->at[v], joined->at[a->vertex_count + v]);
         for (uint32_t v = 0; v < vertices; v++)
             link[v] = v;
-        uint32_t h = run->first, pair[2];
-        for (uint32_t i = 0; i < run->count; i++, h = sp_boundary_next(sheets, h)) {
+        uint32_t h = shared->first, pair[2];
+        for (uint32_t i = 0; i < shared->count; i++, h = sp_boundary_next(sheets, h)) {
             pair_of(sheets, h, pair);
             sp_link(link, pair[0], pair[1] + (uint32_t)a->vertex_count);
             last_pair_of(sheets, h, pair);

@@ -11,17 +11,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The gap over the smaller sheet's size weighs this much against the share of its boundary that is not in the run. */
+/* The gap over the smaller sheet's size weighs this much against the share of its boundary that is not shared. */
 #define GAP_WEIGHT 8.0
 #define WIDEST_GAP 0.12      /* over the smaller sheet's size */
-#define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
-#define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that the run must be */
+#define DEVELOPABLE_GAP 1e-4 /* over the length of the shared boundary */
+#define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that must be shared */
 #define MOST_WASTE 1.126     /* box around the union over those around the two; above 9/8, which boxes may have */
 #define CREASE 0.26          /* cosine of 75 degrees: an edge this sharp parts faces, as of a box */
 #define PATCH_SHARE 0.05     /* of the area of developable surface, that a sheet may have which joins it with strain */
 
 typedef struct {
-    sp_run run;
+    sp_shared_boundary shared;
     uint32_t sheet, version, other_version;
 } candidate;
 
@@ -41,8 +41,8 @@ typedef struct {
     uint32_t *version; /* [sheets->count], how often it has changed */
     double *perimeter; /* [sheets->count], m */
     room *box;         /* [sheets->count] */
-    uint32_t *failed;  /* [3 triangle_count], how many edges the run from here had that could not be joined */
-    sp_runs runs;
+    uint32_t *failed;  /* [3 triangle_count], length in edges of the one from here that could not be joined */
+    sp_shared_boundaries boundaries;
 } merging;
 
 /* Scores are rounded like costs in regions.c. */
@@ -52,14 +52,15 @@ static uint64_t key_of(double score, size_t candidate)
     return (uint64_t)(uint32_t)cell << 32 | (uint32_t)candidate;
 }
 
-/* Scores the union along a run; false where it is not worth trying. */
-static bool promises(const merging *m, uint32_t sheet, const sp_run *run, double *score)
+/* Scores the union along a shared boundary; false where it is not worth trying. */
+static bool promises(const merging *m, uint32_t sheet, const sp_shared_boundary *shared, double *score)
 {
-    const sp_sheet *a = &m->sheets->items[sheet], *b = &m->sheets->items[run->other];
-    double share = run->length / fmin(m->perimeter[sheet], m->perimeter[run->other]);
-    sp_fit fit = sp_join_fit(m->sheets, run);
+    const sp_sheet *a = &m->sheets->items[sheet], *b = &m->sheets->items[shared->other];
+    double share = shared->length / fmin(m->perimeter[sheet], m->perimeter[shared->other]);
+    sp_fit fit = sp_join_fit(m->sheets, shared);
     double size = sqrt(fmin(a->area, b->area));
-    bool developable = fmax(a->strain, b->strain) <= SP_DEVELOPABLE_STRAIN && fit.gap <= DEVELOPABLE_GAP * run->length;
+    bool developable =
+        fmax(a->strain, b->strain) <= SP_DEVELOPABLE_STRAIN && fit.gap <= DEVELOPABLE_GAP * shared->length;
     if (!developable && (share < LEAST_SHARE || fit.gap > WIDEST_GAP * size))
         return false;
     if (!developable && (b->area > PATCH_SHARE * a->kept && a->kept > 0))
@@ -70,9 +71,9 @@ static bool promises(const merging *m, uint32_t sheet, const sp_run *run, double
     return true;
 }
 
-static bool add_candidate(merging *m, uint32_t sheet, const sp_run *run)
+static bool add_candidate(merging *m, uint32_t sheet, const sp_shared_boundary *shared)
 {
-    if (m->failed[run->first] == run->count)
+    if (m->failed[shared->first] == shared->count)
         return true;
     if (m->count == m->capacity) {
         size_t capacity = m->capacity ? 2 * m->capacity : 256;
@@ -83,24 +84,25 @@ static bool add_candidate(merging *m, uint32_t sheet, const sp_run *run)
         m->capacity = capacity;
     }
     double score;
-    if (!promises(m, sheet, run, &score))
+    if (!promises(m, sheet, shared, &score))
         return true;
-    m->candidates[m->count] = (candidate){*run, sheet, m->version[sheet], m->version[run->other]};
+    m->candidates[m->count] = (candidate){*shared, sheet, m->version[sheet], m->version[shared->other]};
     return sp_heap_push(&m->heap, key_of(score, m->count++));
 }
 
-/* Enters the runs of a sheet with all its neighbours, or with those of higher number, of which one must be new. */
+/* Enters the shared boundaries of a sheet with all its neighbours, or with those of higher number, of which one must be
+ * new. */
 static bool add_candidates(merging *m, uint32_t sheet, bool higher_only)
 {
     bool developable = m->sheets->items[sheet].strain <= SP_DEVELOPABLE_STRAIN;
     for (sp_bend most = developable ? SP_BEND_NONE : SP_BEND_SMOOTH; most <= SP_BEND_SMOOTH; most++) {
-        if (!sp_runs_find(&m->runs, m->sheets, sheet, most))
+        if (!sp_shared_boundaries_find(&m->boundaries, m->sheets, sheet, most))
             return false;
-        m->perimeter[sheet] = m->runs.perimeter;
-        for (size_t i = 0; i < m->runs.count; i++)
-            if (!(higher_only && m->runs.items[i].other < sheet) &&
-                (sheet >= m->first_new || m->runs.items[i].other >= m->first_new) &&
-                !add_candidate(m, sheet, &m->runs.items[i]))
+        m->perimeter[sheet] = m->boundaries.perimeter;
+        for (size_t i = 0; i < m->boundaries.count; i++)
+            if (!(higher_only && m->boundaries.items[i].other < sheet) &&
+                (sheet >= m->first_new || m->boundaries.items[i].other >= m->first_new) &&
+                !add_candidate(m, sheet, &m->boundaries.items[i]))
                 return false;
     }
     return true;
@@ -114,20 +116,20 @@ static void take_over(sp_sheets *sheets, const sp_sheet *from, uint32_t owner, u
     }
 }
 
-/* The run as seen from the other sheet. */
-static sp_run turned(const sp_sheets *sheets, uint32_t sheet, const sp_run *run)
+/* The shared boundary as seen from the other sheet. */
+static sp_shared_boundary turned(const sp_sheets *sheets, uint32_t sheet, const sp_shared_boundary *shared)
 {
-    uint32_t last = run->first;
-    for (uint32_t i = 1; i < run->count; i++)
+    uint32_t last = shared->first;
+    for (uint32_t i = 1; i < shared->count; i++)
         last = sp_boundary_next(sheets, last);
-    return (sp_run){sheet, sheets->twin[last], run->count, run->length};
+    return (sp_shared_boundary){sheet, sheets->twin[last], shared->count, shared->length};
 }
 
-static bool is_crease(const merging *m, const sp_run *run)
+static bool is_crease(const merging *m, const sp_shared_boundary *shared)
 {
     const sp_sheets *sheets = m->sheets;
-    uint32_t here = run->first;
-    for (uint32_t i = 0; i < run->count; i++, here = sp_boundary_next(sheets, here)) {
+    uint32_t here = shared->first;
+    for (uint32_t i = 0; i < shared->count; i++, here = sp_boundary_next(sheets, here)) {
         uint32_t there = sheets->twin[here];
         if (sp_dot(sp_triangle_normal(sheets->mesh, here / 3), sp_triangle_normal(sheets->mesh, there / 3)) > CREASE)
             return false;
@@ -148,23 +150,23 @@ static sp_verdict judge_waste(const merging *m, const sp_sheet *joined, room a, 
     return least.fits && box->area <= MOST_WASTE * (a.area + b.area) ? SP_SHEET_FITS : SP_SHEET_UNFIT;
 }
 
-static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
+static sp_verdict try_join(merging *m, uint32_t sheet, const sp_shared_boundary *shared)
 {
     sp_sheets *sheets = m->sheets;
-    sp_fit fit = sp_join_fit(sheets, run);
-    sp_sheet joined, a = sheets->items[sheet], b = sheets->items[run->other];
-    bool crease = is_crease(m, run);
-    if (!sp_join(sheets, run, &fit, &joined))
+    sp_fit fit = sp_join_fit(sheets, shared);
+    sp_sheet joined, a = sheets->items[sheet], b = sheets->items[shared->other];
+    bool crease = is_crease(m, shared);
+    if (!sp_join(sheets, shared, &fit, &joined))
         return SP_SHEET_MEMORY;
     room box;
-    sp_verdict verdict = judge_waste(m, &joined, m->box[sheet], m->box[run->other], crease, &box);
+    sp_verdict verdict = judge_waste(m, &joined, m->box[sheet], m->box[shared->other], crease, &box);
     if (verdict != SP_SHEET_FITS) {
         sp_sheet_free(&joined);
         return verdict;
     }
     take_over(sheets, &b, sheet, (uint32_t)a.triangle_count);
     sheets->items[sheet] = joined;
-    sheets->items[run->other] = (sp_sheet){0};
+    sheets->items[shared->other] = (sp_sheet){0};
     bool closed; /* what is left open here might overlap on the finer mesh */
     if (sheets->coarse && fmax(a.strain, b.strain) > SP_DEVELOPABLE_STRAIN && !sp_close_ends(sheets, sheet, &closed))
         verdict = SP_SHEET_MEMORY;
@@ -178,36 +180,36 @@ static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
     }
     sp_sheet_free(&sheets->items[sheet]);
     sheets->items[sheet] = a;
-    sheets->items[run->other] = b;
-    take_over(sheets, &b, run->other, 0);
+    sheets->items[shared->other] = b;
+    take_over(sheets, &b, shared->other, 0);
     return verdict;
 }
 
 static bool attempt(merging *m, const candidate *c)
 {
-    sp_run run = c->run, back = turned(m->sheets, c->sheet, &run);
+    sp_shared_boundary shared = c->shared, back = turned(m->sheets, c->sheet, &shared);
     uint32_t sheet = c->sheet;
-    if (m->sheets->items[run.other].triangle_count > m->sheets->items[sheet].triangle_count) {
-        sp_run swap = run;
-        sheet = run.other;
-        run = back;
+    if (m->sheets->items[shared.other].triangle_count > m->sheets->items[sheet].triangle_count) {
+        sp_shared_boundary swap = shared;
+        sheet = shared.other;
+        shared = back;
         back = swap;
     }
-    sp_verdict verdict = try_join(m, sheet, &run);
+    sp_verdict verdict = try_join(m, sheet, &shared);
     if (verdict == SP_SHEET_MEMORY)
         return false;
     if (verdict == SP_SHEET_UNFIT) {
-        m->failed[run.first] = m->failed[back.first] = run.count;
+        m->failed[shared.first] = m->failed[back.first] = shared.count;
         return true;
     }
     m->version[sheet]++;
-    m->version[run.other]++;
+    m->version[shared.other]++;
     return add_candidates(m, sheet, false);
 }
 
 static bool is_current(const merging *m, const candidate *c)
 {
-    return m->version[c->sheet] == c->version && m->version[c->run.other] == c->other_version;
+    return m->version[c->sheet] == c->version && m->version[c->shared.other] == c->other_version;
 }
 
 bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *relaxer, sp_error *error)
@@ -217,12 +219,13 @@ bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *re
     m.perimeter = calloc(sheets->count + 1, sizeof *m.perimeter);
     m.box = calloc(sheets->count + 1, sizeof *m.box);
     m.failed = calloc(3 * sheets->mesh->triangle_count + 1, sizeof *m.failed);
-    bool good = m.version && m.perimeter && m.box && m.failed && sp_runs_create(&m.runs, sheets->mesh);
+    bool good =
+        m.version && m.perimeter && m.box && m.failed && sp_shared_boundaries_create(&m.boundaries, sheets->mesh);
     for (uint32_t i = 0; good && i < sheets->count; i++) {
         if (sheets->items[i].triangle_count == 0)
             continue;
-        good = sp_runs_find(&m.runs, sheets, i, SP_BEND_SMOOTH);
-        m.perimeter[i] = m.runs.perimeter;
+        good = sp_shared_boundaries_find(&m.boundaries, sheets, i, SP_BEND_SMOOTH);
+        m.perimeter[i] = m.boundaries.perimeter;
         sp_least_box box = sp_find_least_box(&sheets->items[i], INFINITY);
         m.box[i] = (room){box.width * box.height, fmax(box.width, box.height)};
         good = good && box.memory;
@@ -233,7 +236,7 @@ bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *re
         candidate c = m.candidates[(uint32_t)sp_heap_pop(&m.heap)];
         good = !is_current(&m, &c) || attempt(&m, &c);
     }
-    sp_runs_destroy(&m.runs);
+    sp_shared_boundaries_destroy(&m.boundaries);
     free(m.version);
     free(m.perimeter);
     free(m.box);

@@ -1,7 +1,7 @@
 #include "atlas/packing/shape.h"
 
 #include "mesh/bits.h"
-#include "atlas/texels/cover.h"
+#include "atlas/texels/raster.h"
 #include "mesh/lesser.h"
 
 #include <math.h>
@@ -110,7 +110,7 @@ static bool frame(const chart *c, uint32_t limit, sp_shape *shape, sp_error *err
     return true;
 }
 
-static bool paint(const chart *c, sp_shape *shape, canvas *picture, sp_cover *cover)
+static bool paint(const chart *c, sp_shape *shape, canvas *picture, sp_raster *raster)
 {
     if (!clear(picture, shape->width, shape->height))
         return false;
@@ -121,11 +121,11 @@ static bool paint(const chart *c, sp_shape *shape, canvas *picture, sp_cover *co
             uv[k][0] = flat[k][0] / c->texel + shape->left + 2;
             uv[k][1] = flat[k][1] / c->texel + shape->low + 2;
         }
-        if (!sp_cover_begin(cover, (const double(*)[2])uv, SP_COVER_TOUCHED))
+        if (!sp_raster_begin(raster, (const double(*)[2])uv, SP_RASTER_TOUCHED))
             return false;
-        while (sp_cover_next(cover)) {
-            uint32_t y = cover->y < 2 ? 0 : cover->y - 2, x = cover->x < 2 ? 0 : cover->x - 2,
-                     end = cover->x + cover->count - 2;
+        while (sp_raster_next(raster)) {
+            uint32_t y = raster->y < 2 ? 0 : raster->y - 2, x = raster->x < 2 ? 0 : raster->x - 2,
+                     end = raster->x + raster->count - 2;
             if (y < shape->height && x < shape->width)
                 sp_bits_fill(picture->bits + y * picture->row_words, x, (end < shape->width ? end : shape->width) - x);
         }
@@ -140,14 +140,14 @@ sp_shape *sp_shapes_create(const sp_charts *charts, const double *texel, uint32_
     uint32_t *members = malloc((charts->triangle_count + 1) * sizeof *members);
     sp_shape *shapes = calloc(count + 1, sizeof *shapes);
     canvas picture = {0};
-    sp_cover cover = {0};
+    sp_raster raster = {0};
     bool memory = start && members && shapes, done = memory;
     if (done)
         list_members(charts, start, members);
     for (size_t i = 0; done && i < count; i++) {
         chart c = {charts, members + start[i], start[i + 1] - start[i], texel[i]};
         done = frame(&c, limit, &shapes[i], error);
-        memory = !done || paint(&c, &shapes[i], &picture, &cover);
+        memory = !done || paint(&c, &shapes[i], &picture, &raster);
         done = done && memory;
     }
     if (!memory)
@@ -155,7 +155,7 @@ sp_shape *sp_shapes_create(const sp_charts *charts, const double *texel, uint32_
     free(start);
     free(members);
     free(picture.bits);
-    sp_cover_free(&cover);
+    sp_raster_free(&raster);
     if (done)
         return shapes;
     sp_shapes_destroy(shapes, count);

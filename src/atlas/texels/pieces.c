@@ -9,40 +9,40 @@
 
 static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
 {
-    const sp_cover *cover = &pieces->cover;
-    if (pieces->capacity - pieces->count < cover->count) {
-        size_t capacity = 2 * pieces->capacity + cover->count + 64;
+    const sp_raster *raster = &pieces->raster;
+    if (pieces->capacity - pieces->count < raster->count) {
+        size_t capacity = 2 * pieces->capacity + raster->count + 64;
         sp_piece *items = realloc(pieces->items, capacity * sizeof *items);
         if (!items)
             return false;
         pieces->items = items;
         pieces->capacity = capacity;
     }
-    uint32_t texel = sp_atlas_row_texel(atlas, triangle, cover);
-    for (uint32_t i = 0; i < cover->count; i++)
+    uint32_t texel = sp_atlas_row_texel(atlas, triangle, raster);
+    for (uint32_t i = 0; i < raster->count; i++)
         pieces->items[pieces->count + i].texel = texel + i;
     for (size_t at = sp_atlas_shared_from(atlas, texel);
-         at < atlas->shared_count && atlas->shared[at].pixel - texel < cover->count; at++)
+         at < atlas->shared_count && atlas->shared[at].pixel - texel < raster->count; at++)
         if (atlas->shared[at].triangle == triangle)
             pieces->items[pieces->count + (atlas->shared[at].pixel - texel)].texel = atlas->shared[at].texel;
-    pieces->count += cover->count;
+    pieces->count += raster->count;
     return true;
 }
 
 static void measure_row(sp_pieces *pieces)
 {
-    const sp_cover *cover = &pieces->cover;
-    sp_piece *row = pieces->items + (pieces->count - cover->count);
-    for (uint32_t i = 0; i < cover->count; i++)
-        row[i].area = sp_greater(cover->area[i], LEAST_SHARE * cover->flat);
+    const sp_raster *raster = &pieces->raster;
+    sp_piece *row = pieces->items + (pieces->count - raster->count);
+    for (uint32_t i = 0; i < raster->count; i++)
+        row[i].area = sp_greater(raster->area[i], LEAST_SHARE * raster->flat);
 }
 
 bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
 {
     pieces->count = 0;
-    if (!sp_atlas_cover(atlas, triangle, SP_COVER_AREAS, &pieces->cover))
+    if (!sp_atlas_rasterize(atlas, triangle, SP_RASTER_AREAS, &pieces->raster))
         return false;
-    while (sp_cover_next(&pieces->cover)) {
+    while (sp_raster_next(&pieces->raster)) {
         if (!add_row(pieces, atlas, triangle))
             return false;
         measure_row(pieces);
@@ -78,13 +78,13 @@ static bool visit_row(const sp_piece *items, const piece_row *row, const piece_r
 
 bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle, sp_pieces_visitor *visit, void *user)
 {
-    const sp_cover *cover = &pieces->cover;
+    const sp_raster *raster = &pieces->raster;
     pieces->count = 0;
-    if (!sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &pieces->cover))
+    if (!sp_atlas_rasterize(atlas, triangle, SP_RASTER_PIXELS, &pieces->raster))
         return false;
     piece_row below = {0};
-    while (sp_cover_next(&pieces->cover)) {
-        piece_row row = {cover->x, cover->y, cover->count, pieces->count};
+    while (sp_raster_next(&pieces->raster)) {
+        piece_row row = {raster->x, raster->y, raster->count, pieces->count};
         if (!add_row(pieces, atlas, triangle) || !visit_row(pieces->items, &row, &below, visit, user))
             return false;
         below = row;
@@ -95,6 +95,6 @@ bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle
 void sp_pieces_free(sp_pieces *pieces)
 {
     free(pieces->items);
-    sp_cover_free(&pieces->cover);
+    sp_raster_free(&pieces->raster);
     *pieces = (sp_pieces){0};
 }

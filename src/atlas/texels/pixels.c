@@ -4,14 +4,14 @@
 
 #include <stdlib.h>
 
-static bool paint(const sp_atlas *atlas, uint64_t *bits, size_t row_words, sp_cover *cover)
+static bool paint(const sp_atlas *atlas, uint64_t *bits, size_t row_words, sp_raster *raster)
 {
     for (uint32_t t = 0; t < atlas->triangle_count; t++) {
         uint64_t *page = bits + (size_t)atlas->chart_page[atlas->chart[t]] * atlas->page_edge * row_words;
-        if (!sp_atlas_cover(atlas, t, SP_COVER_PIXELS, cover))
+        if (!sp_atlas_rasterize(atlas, t, SP_RASTER_PIXELS, raster))
             return false;
-        while (sp_cover_next(cover))
-            sp_bits_fill(page + cover->y * row_words, cover->x, cover->count);
+        while (sp_raster_next(raster))
+            sp_bits_fill(page + raster->y * row_words, raster->x, raster->count);
     }
     return true;
 }
@@ -39,14 +39,14 @@ static void list_runs(sp_atlas *atlas, const uint64_t *bits, size_t row_words, s
     atlas->row_start[rows] = (uint32_t)atlas->run_count;
 }
 
-static bool name_charts(sp_atlas *atlas, sp_cover *cover)
+static bool name_charts(sp_atlas *atlas, sp_raster *raster)
 {
     for (uint32_t t = 0; t < atlas->triangle_count; t++) {
         size_t row = (size_t)atlas->chart_page[atlas->chart[t]] * atlas->page_edge;
-        if (!sp_atlas_cover(atlas, t, SP_COVER_PIXELS, cover))
+        if (!sp_atlas_rasterize(atlas, t, SP_RASTER_PIXELS, raster))
             return false;
-        while (sp_cover_next(cover))
-            ((sp_texel_run *)sp_atlas_run(atlas, row + cover->y, cover->x))->chart = atlas->chart[t];
+        while (sp_raster_next(raster))
+            ((sp_texel_run *)sp_atlas_run(atlas, row + raster->y, raster->x))->chart = atlas->chart[t];
     }
     return true;
 }
@@ -58,9 +58,9 @@ bool sp_atlas_find_pixels(sp_atlas *atlas, sp_error *error)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "a texel of %g m takes %zu pages of %u texels, too many",
                        atlas->texel, atlas->page_count, atlas->page_edge);
     uint64_t *bits = calloc(rows * row_words + 1, sizeof *bits);
-    sp_cover cover = {0};
+    sp_raster raster = {0};
     atlas->row_start = malloc((rows + 1) * sizeof *atlas->row_start);
-    bool done = bits && atlas->row_start && paint(atlas, bits, row_words, &cover);
+    bool done = bits && atlas->row_start && paint(atlas, bits, row_words, &raster);
     if (done)
         list_runs(atlas, bits, row_words, &pixels);
     bool fits = pixels < SP_NONE && atlas->run_count < SP_NONE;
@@ -72,8 +72,8 @@ bool sp_atlas_find_pixels(sp_atlas *atlas, sp_error *error)
     }
     free(bits);
     atlas->pixel_count = atlas->texel_count = pixels;
-    done = done && (!fits || name_charts(atlas, &cover));
-    sp_cover_free(&cover);
+    done = done && (!fits || name_charts(atlas, &raster));
+    sp_raster_free(&raster);
     if (!done)
         return sp_fail_memory(error);
     return fits || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "a texel of %g m cuts the surface into more than 2^32",

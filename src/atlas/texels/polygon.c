@@ -40,9 +40,9 @@ double sp_piece_area(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triang
 
 static bool lies_in_one_pixel(const sp_atlas *atlas, uint32_t triangle)
 {
-    sp_cover cover = {0};
-    sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &cover); /* needs no memory */
-    return sp_cover_next(&cover) && cover.count == 1 && !sp_cover_next(&cover);
+    sp_raster raster = {0};
+    sp_atlas_rasterize(atlas, triangle, SP_RASTER_PIXELS, &raster); /* needs no memory */
+    return sp_raster_next(&raster) && raster.count == 1 && !sp_raster_next(&raster);
 }
 
 int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t texel, uint32_t triangle,

@@ -72,17 +72,17 @@ static bool mark_cuts(const sp_atlas *atlas, const sp_half_edges *edges, const s
 /* The triangles in the marked pixels. */
 static bool list_triangles(const sp_atlas *atlas, const uint64_t *bits, size_t row_words, pairs *p)
 {
-    sp_cover cover = {0};
+    sp_raster raster = {0};
     for (uint32_t t = 0; t < atlas->triangle_count; t++) {
         const uint64_t *page = bits + (size_t)atlas->chart_page[atlas->chart[t]] * atlas->page_edge * row_words;
-        if (!sp_atlas_cover(atlas, t, SP_COVER_PIXELS, &cover))
+        if (!sp_atlas_rasterize(atlas, t, SP_RASTER_PIXELS, &raster))
             return false;
-        while (sp_cover_next(&cover)) {
-            const uint64_t *row = page + cover.y * row_words;
-            size_t end = (size_t)cover.x + cover.count, x = sp_bits_find(row, cover.x, end, true);
-            uint32_t texel = x < end ? sp_atlas_row_texel(atlas, t, &cover) : 0;
+        while (sp_raster_next(&raster)) {
+            const uint64_t *row = page + raster.y * row_words;
+            size_t end = (size_t)raster.x + raster.count, x = sp_bits_find(row, raster.x, end, true);
+            uint32_t texel = x < end ? sp_atlas_row_texel(atlas, t, &raster) : 0;
             for (; x < end; x = sp_bits_find(row, x + 1, end, true))
-                if (!add_pair(p, texel + (uint32_t)(x - cover.x), t))
+                if (!add_pair(p, texel + (uint32_t)(x - raster.x), t))
                     return false;
         }
     }

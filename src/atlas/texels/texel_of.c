@@ -60,33 +60,33 @@ uint32_t sp_atlas_resolve(const sp_atlas *atlas, uint32_t pixel, uint32_t triang
     return atlas->shared[at].texel;
 }
 
-bool sp_atlas_cover(const sp_atlas *atlas, uint32_t triangle, sp_cover_kind kind, sp_cover *cover)
+bool sp_atlas_rasterize(const sp_atlas *atlas, uint32_t triangle, sp_raster_kind kind, sp_raster *raster)
 {
-    return sp_cover_begin(cover, (const double(*)[2])atlas->uv[triangle], kind);
+    return sp_raster_begin(raster, (const double(*)[2])atlas->uv[triangle], kind);
 }
 
-uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_cover *cover)
+uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_raster *raster)
 {
-    size_t row = (size_t)atlas->chart_page[atlas->chart[triangle]] * atlas->page_edge + cover->y;
-    const sp_texel_run *run = sp_atlas_run(atlas, row, cover->x);
-    return run->texel + (cover->x - run->x);
+    size_t row = (size_t)atlas->chart_page[atlas->chart[triangle]] * atlas->page_edge + raster->y;
+    const sp_texel_run *run = sp_atlas_run(atlas, row, raster->x);
+    return run->texel + (raster->x - run->x);
 }
 
 /* The triangle's own pixel that is nearest to a point. */
 static uint32_t nearest_own(const sp_atlas *atlas, uint32_t triangle, double x, double y)
 {
-    sp_cover cover = {0};
+    sp_raster raster = {0};
     double least = INFINITY;
     uint32_t nearest = SP_NONE;
-    sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &cover); /* needs no memory */
-    while (sp_cover_next(&cover)) {
-        double column = sp_lesser(sp_greater(floor(x), cover.x), cover.x + cover.count - 1.0);
+    sp_atlas_rasterize(atlas, triangle, SP_RASTER_PIXELS, &raster); /* needs no memory */
+    while (sp_raster_next(&raster)) {
+        double column = sp_lesser(sp_greater(floor(x), raster.x), raster.x + raster.count - 1.0);
         double dx = sp_greater(0, sp_greater(column - x, x - column - 1)),
-               dy = sp_greater(0, sp_greater(cover.y - y, y - cover.y - 1));
+               dy = sp_greater(0, sp_greater(raster.y - y, y - raster.y - 1));
         if (dx * dx + dy * dy >= least)
             continue;
         least = dx * dx + dy * dy;
-        nearest = sp_atlas_row_texel(atlas, triangle, &cover) + ((uint32_t)column - cover.x);
+        nearest = sp_atlas_row_texel(atlas, triangle, &raster) + ((uint32_t)column - raster.x);
     }
     return nearest;
 }

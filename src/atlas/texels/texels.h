@@ -2,7 +2,7 @@
 #ifndef ATLAS_TEXELS_H
 #define ATLAS_TEXELS_H
 
-#include "atlas/texels/cover.h"
+#include "atlas/texels/raster.h"
 #include "mesh/half_edge.h"
 
 #include <sprayplan/atlas.h>
@@ -30,9 +30,9 @@ uint32_t sp_atlas_resolve(const sp_atlas *atlas, uint32_t pixel, uint32_t triang
 /* texel_of.c: the first of atlas->shared at that pixel or a later one. */
 size_t sp_atlas_shared_from(const sp_atlas *atlas, uint32_t pixel);
 /* texel_of.c: begins with a triangle's pixels on its page. */
-bool sp_atlas_cover(const sp_atlas *atlas, uint32_t triangle, sp_cover_kind kind, sp_cover *cover);
+bool sp_atlas_rasterize(const sp_atlas *atlas, uint32_t triangle, sp_raster_kind kind, sp_raster *raster);
 /* texel_of.c: the first texel of the row in hand; its pixels have the next ones, but for shared pixels. */
-uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_cover *cover);
+uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_raster *raster);
 
 /* pieces.c: what one triangle has in each of its texels. */
 typedef struct {
@@ -42,7 +42,7 @@ typedef struct {
 typedef struct {
     sp_piece *items;
     size_t count, capacity;
-    sp_cover cover;
+    sp_raster raster;
 } sp_pieces;
 /* Ordered by row, then x. Returns false when memory runs out. */
 bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle);

@@ -4,7 +4,7 @@
  * leave edges whose triangles do not run one way as often as the other. What is there twice for no reason leaves edges
  * no worse than they were, or better. So copies that hang together are taken out or left as one. */
 #include "mesh/disjoint_sets.h"
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 #include "mesh/twins.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@ typedef enum {
 } choice;
 
 typedef struct {
-    const sp_mesh_draft *draft;
+    const sp_mesh_edit *edit;
     uint32_t *order;      /* by corners */
     bool *chosen;         /* [triangles] */
     uint32_t *set;        /* [triangles]: which of these hang together */
@@ -32,7 +32,7 @@ static bool runs_upwards(const uint32_t corners[3])
 /* Among order[from .. to], which have the same corners. */
 static size_t choose_among(copies *c, size_t from, size_t to, choice which)
 {
-    const sp_mesh *mesh = c->draft->mesh;
+    const sp_mesh *mesh = c->edit->mesh;
     bool first_side = runs_upwards(mesh->triangles[c->order[from]]);
     size_t of_side[2] = {0, 0}, chosen = 0, others = 0;
     for (size_t i = from; i < to; i++)
@@ -50,9 +50,9 @@ static size_t choose_among(copies *c, size_t from, size_t to, choice which)
 
 static size_t choose(copies *c, choice which)
 {
-    size_t count = c->draft->mesh->triangle_count, chosen = 0;
+    size_t count = c->edit->mesh->triangle_count, chosen = 0;
     for (size_t from = 0, to; from < count; from = to) {
-        for (to = from + 1; to < count && sp_are_twins(c->draft->mesh, c->order[from], c->order[to]);)
+        for (to = from + 1; to < count && sp_are_twins(c->edit->mesh, c->order[from], c->order[to]);)
             to++;
         chosen += choose_among(c, from, to, which);
     }
@@ -66,11 +66,11 @@ static size_t choose(copies *c, choice which)
 /* Joins the chosen ones at edges; each set's least is its root. */
 static void join_at_edges(copies *c)
 {
-    const sp_half_edges *edges = &c->draft->edges;
+    const sp_half_edges *edges = &c->edit->edges;
     size_t of_edge;
-    for (size_t i = 0; i < 3 * c->draft->mesh->triangle_count; i += of_edge) {
+    for (size_t i = 0; i < 3 * c->edit->mesh->triangle_count; i += of_edge) {
         uint32_t last = SP_NONE;
-        of_edge = sp_half_edges_of_edge(c->draft->mesh, edges, i);
+        of_edge = sp_half_edges_of_edge(c->edit->mesh, edges, i);
         for (size_t k = i; k < i + of_edge; k++) {
             uint32_t t = edges->order[k] / 3;
             if (!c->chosen[t])
@@ -84,8 +84,8 @@ static void join_at_edges(copies *c)
 
 static void judge_edge(copies *c, size_t first, size_t of_edge)
 {
-    const sp_mesh *mesh = c->draft->mesh;
-    const uint32_t *edge = c->draft->edges.order + first;
+    const sp_mesh *mesh = c->edit->mesh;
+    const uint32_t *edge = c->edit->edges.order + first;
     uint32_t from = sp_half_edge_from(mesh, edge[0]), root = SP_NONE;
     long before = 0, after = 0;
     size_t left = 0;
@@ -106,36 +106,36 @@ static void judge_edge(copies *c, size_t first, size_t of_edge)
     c->better[root] |= labs(after) < labs(before);
 }
 
-static size_t take_out(copies *c, sp_mesh_draft *draft, choice which)
+static size_t take_out(copies *c, sp_mesh_edit *edit, choice which)
 {
     size_t of_edge, done = 0;
     join_at_edges(c);
-    for (size_t i = 0; i < 3 * draft->mesh->triangle_count; i += of_edge) {
-        of_edge = sp_half_edges_of_edge(draft->mesh, &draft->edges, i);
+    for (size_t i = 0; i < 3 * edit->mesh->triangle_count; i += of_edge) {
+        of_edge = sp_half_edges_of_edge(edit->mesh, &edit->edges, i);
         judge_edge(c, i, of_edge);
     }
-    for (uint32_t t = 0; t < draft->mesh->triangle_count; t++) {
+    for (uint32_t t = 0; t < edit->mesh->triangle_count; t++) {
         uint32_t root = sp_set_root(c->set, t);
         if (!c->chosen[t] || c->worse[root] || (which != SAME_SIDE && !c->better[root]))
             continue;
-        draft->triangles[t][0] = SP_NONE;
+        edit->triangles[t][0] = SP_NONE;
         done++;
     }
     return done;
 }
 
-bool sp_take_out_copies(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_take_out_copies(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
-    size_t room = draft->mesh->triangle_count + 1;
-    copies c = {draft,       malloc(room * sizeof *c.order), malloc(room), malloc(room * sizeof *c.set), malloc(room),
+    size_t room = edit->mesh->triangle_count + 1;
+    copies c = {edit,        malloc(room * sizeof *c.order), malloc(room), malloc(room * sizeof *c.set), malloc(room),
                 malloc(room)};
     bool good = (c.order && c.chosen && c.set && c.worse && c.better) || sp_fail_memory(error);
-    good = good && sp_sort_twins(draft->mesh, c.order, error);
+    good = good && sp_sort_twins(edit->mesh, c.order, error);
     *done = 0;
     for (choice which = SAME_SIDE; good && !*done && which < CHOICES; which++)
         if (choose(&c, which))
-            *done = take_out(&c, draft, which);
+            *done = take_out(&c, edit, which);
     free(c.order);
     free(c.chosen);
     free(c.set);

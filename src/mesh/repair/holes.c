@@ -1,6 +1,6 @@
 /* Triangles that are missing: three open edges, of more than one triangle, run round a triangle. Wider openings are
  * ports, rims and lids as often as holes, and stay. */
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 
 #include <stdlib.h>
 
@@ -9,31 +9,31 @@
 #define FOLDED (-0.5) /* cosine between a triangle's and a neighbour's normal */
 
 typedef struct {
-    sp_mesh_draft *draft;
+    sp_mesh_edit *edit;
     uint32_t *next; /* [vertices]: the only open half edge that begins there, SEVERAL or SP_NONE */
     double *area;   /* [triangles], m²: of the shell whose least triangle it is */
 } filling;
 
 static void prepare(filling *f)
 {
-    const sp_mesh *mesh = f->draft->mesh;
+    const sp_mesh *mesh = f->edit->mesh;
     for (size_t v = 0; v < mesh->vertex_count; v++)
         f->next[v] = SP_NONE;
     for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++) {
         uint32_t *next = &f->next[sp_half_edge_from(mesh, h)];
-        if (f->draft->edges.kind[h] == SP_EDGE_OPEN)
+        if (f->edit->edges.kind[h] == SP_EDGE_OPEN)
             *next = *next == SP_NONE ? h : SEVERAL;
     }
     for (size_t t = 0; t < mesh->triangle_count; t++)
         f->area[t] = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        f->area[f->draft->shell[t]] += sp_triangle_area(mesh, t);
+        f->area[f->edit->shell[t]] += sp_triangle_area(mesh, t);
 }
 
 /* The three half edges around a hole, the lowest first. */
 static bool is_around(const filling *f, uint32_t first, uint32_t around[3])
 {
-    const sp_mesh *mesh = f->draft->mesh;
+    const sp_mesh *mesh = f->edit->mesh;
     around[0] = first;
     for (int k = 0; k < 3; k++) {
         uint32_t following = f->next[sp_half_edge_to(mesh, around[k])];
@@ -46,10 +46,10 @@ static bool is_around(const filling *f, uint32_t first, uint32_t around[3])
 
 static bool fits(const filling *f, const uint32_t around[3], const uint32_t corners[3])
 {
-    const sp_mesh *mesh = f->draft->mesh;
+    const sp_mesh *mesh = f->edit->mesh;
     sp_vec3 area = sp_corners_area(mesh, corners), normal = sp_unit(area);
     if (!sp_keeps_its_side(mesh, area, corners) ||
-        0.5 * sp_length(area) > WIDEST * f->area[f->draft->shell[around[0] / 3]])
+        0.5 * sp_length(area) > WIDEST * f->area[f->edit->shell[around[0] / 3]])
         return false;
     for (int k = 0; k < 3; k++)
         if (sp_dot(normal, sp_triangle_normal(mesh, around[k] / 3)) < FOLDED)
@@ -57,11 +57,11 @@ static bool fits(const filling *f, const uint32_t around[3], const uint32_t corn
     return true;
 }
 
-bool sp_fill_holes(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_fill_holes(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
-    const sp_mesh *mesh = draft->mesh;
-    filling f = {draft, malloc((mesh->vertex_count + 1) * sizeof *f.next),
+    const sp_mesh *mesh = edit->mesh;
+    filling f = {edit, malloc((mesh->vertex_count + 1) * sizeof *f.next),
                  malloc((mesh->triangle_count + 1) * sizeof *f.area)};
     bool good = (f.next && f.area) || sp_fail_memory(error);
     *done = 0;
@@ -69,7 +69,7 @@ bool sp_fill_holes(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *e
         prepare(&f);
     for (uint32_t h = 0; good && h < 3 * mesh->triangle_count; h++) {
         uint32_t around[3];
-        if (draft->edges.kind[h] != SP_EDGE_OPEN || !is_around(&f, h, around))
+        if (edit->edges.kind[h] != SP_EDGE_OPEN || !is_around(&f, h, around))
             continue;
         uint32_t corners[3];
         for (int k = 0; k < 3; k++)
@@ -77,7 +77,7 @@ bool sp_fill_holes(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *e
         if (!fits(&f, around, corners))
             continue;
         uint32_t part = mesh->part[around[1] / 3] == mesh->part[around[2] / 3] ? around[1] / 3 : around[0] / 3;
-        good = sp_mesh_draft_add(draft, corners[0], corners[1], corners[2], mesh->part[part], error);
+        good = sp_mesh_edit_add(edit, corners[0], corners[1], corners[2], mesh->part[part], error);
         ++*done;
     }
     free(f.next);

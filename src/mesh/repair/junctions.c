@@ -5,7 +5,7 @@
 #include "mesh/box_pairs.h"
 #include "mesh/diagnosis/flaw.h"
 #include "mesh/grow.h"
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 
 #define MOST_CANDIDATES 16 /* for each corner and edge, on the whole */
 
@@ -16,7 +16,7 @@ typedef struct {
 } candidate;
 
 typedef struct {
-    sp_mesh_draft *draft;
+    sp_mesh_edit *edit;
     bool careful;
     double *radius; /* [vertices], as sp_crack_corners gives it */
     uint32_t *item; /* what each box is of: open half edges, and after these corners */
@@ -34,7 +34,7 @@ typedef struct {
 static bool look_at(void *user, uint32_t edge, uint32_t corner)
 {
     splitting *s = user;
-    const sp_mesh *mesh = s->draft->mesh;
+    const sp_mesh *mesh = s->edit->mesh;
     if (s->left-- == 0)
         return false;
     if ((edge < s->edge_count) == (corner < s->edge_count))
@@ -68,14 +68,14 @@ static int by_edge(const void *left, const void *right)
 /* Lists open half edges and the corners on them, with their boxes. NULL when memory runs out. */
 static sp_box *list_items(splitting *s, double crack)
 {
-    const sp_mesh *mesh = s->draft->mesh;
+    const sp_mesh *mesh = s->edit->mesh;
     s->item = malloc((3 * mesh->triangle_count + mesh->vertex_count + 1) * sizeof *s->item);
     uint32_t *corners = malloc((mesh->vertex_count + 1) * sizeof *corners);
     size_t corner_count = 0;
     if (s->item && corners) {
-        corner_count = sp_crack_corners(mesh, &s->draft->edges, crack, s->radius, corners);
+        corner_count = sp_crack_corners(mesh, &s->edit->edges, crack, s->radius, corners);
         for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++)
-            if (s->draft->edges.kind[h] == SP_EDGE_OPEN)
+            if (s->edit->edges.kind[h] == SP_EDGE_OPEN)
                 s->item[s->edge_count++] = h;
         memcpy(s->item + s->edge_count, corners, corner_count * sizeof *corners);
     }
@@ -96,7 +96,7 @@ static sp_box *list_items(splitting *s, double crack)
 static bool find_candidates(splitting *s, sp_error *error)
 {
     sp_vec3 low, high;
-    sp_box *boxes = list_items(s, SP_CRACK * sp_mesh_box(s->draft->mesh, &low, &high));
+    sp_box *boxes = list_items(s, SP_CRACK * sp_mesh_box(s->edit->mesh, &low, &high));
     uint32_t *list = malloc((s->item_count + 1) * sizeof *list);
     bool good = (boxes && list) || sp_fail_memory(error);
     for (uint32_t i = 0; good && i < s->item_count; i++)
@@ -114,12 +114,12 @@ static bool find_candidates(splitting *s, sp_error *error)
 /* The open half edge that a piece from a to b of half edge `own` would lie beside; SP_NONE where there is none. */
 static uint32_t beside(const splitting *s, uint32_t own, uint32_t a, uint32_t b)
 {
-    const sp_mesh *mesh = s->draft->mesh;
-    size_t first = sp_half_edges_between(mesh, &s->draft->edges, a, b);
-    uint32_t h = first == SIZE_MAX ? SP_NONE : s->draft->edges.order[first];
-    if (h == SP_NONE || s->draft->edges.kind[h] != SP_EDGE_OPEN || s->used[h] || h / 3 == own / 3)
+    const sp_mesh *mesh = s->edit->mesh;
+    size_t first = sp_half_edges_between(mesh, &s->edit->edges, a, b);
+    uint32_t h = first == SIZE_MAX ? SP_NONE : s->edit->edges.order[first];
+    if (h == SP_NONE || s->edit->edges.kind[h] != SP_EDGE_OPEN || s->used[h] || h / 3 == own / 3)
         return SP_NONE;
-    if (s->careful && (sp_half_edge_from(mesh, h) != b || s->draft->shell[h / 3] != s->draft->shell[own / 3]))
+    if (s->careful && (sp_half_edge_from(mesh, h) != b || s->edit->shell[h / 3] != s->edit->shell[own / 3]))
         return SP_NONE;
     return h;
 }
@@ -142,7 +142,7 @@ static size_t thin_out(splitting *s, uint32_t own, size_t count)
 /* Whether splitting at the chain's corners closes more than it opens, and draws no edge that is there already. */
 static bool is_worth_it(const splitting *s, uint32_t own, uint32_t apex, size_t count)
 {
-    const sp_mesh *mesh = s->draft->mesh;
+    const sp_mesh *mesh = s->edit->mesh;
     sp_vec3 area = sp_corners_area(mesh, mesh->triangles[own / 3]);
     size_t closed = 0;
     for (size_t i = 0; i <= count; i++) {
@@ -150,8 +150,8 @@ static bool is_worth_it(const splitting *s, uint32_t own, uint32_t apex, size_t 
         bool fits = beside(s, own, corners[0], corners[1]) != SP_NONE;
         closed += fits;
         if (!sp_keeps_its_side(mesh, area, corners) ||
-            (!fits && sp_half_edges_between(mesh, &s->draft->edges, corners[0], corners[1]) != SIZE_MAX) ||
-            (i && sp_half_edges_between(mesh, &s->draft->edges, corners[0], apex) != SIZE_MAX))
+            (!fits && sp_half_edges_between(mesh, &s->edit->edges, corners[0], corners[1]) != SIZE_MAX) ||
+            (i && sp_half_edges_between(mesh, &s->edit->edges, corners[0], apex) != SIZE_MAX))
             return false;
     }
     return 2 * closed > count;
@@ -159,7 +159,7 @@ static bool is_worth_it(const splitting *s, uint32_t own, uint32_t apex, size_t 
 
 static bool split(splitting *s, uint32_t own, uint32_t apex, size_t count, sp_error *error)
 {
-    uint32_t *corners = s->draft->triangles[own / 3];
+    uint32_t *corners = s->edit->triangles[own / 3];
     corners[0] = s->chain[0];
     corners[1] = s->chain[1];
     corners[2] = apex;
@@ -168,7 +168,7 @@ static bool split(splitting *s, uint32_t own, uint32_t apex, size_t count, sp_er
         uint32_t h = beside(s, own, s->chain[i], s->chain[i + 1]);
         if (h != SP_NONE)
             s->used[h] = true;
-        if (i && !sp_mesh_draft_add(s->draft, s->chain[i], s->chain[i + 1], apex, s->draft->mesh->part[own / 3], error))
+        if (i && !sp_mesh_edit_add(s->edit, s->chain[i], s->chain[i + 1], apex, s->edit->mesh->part[own / 3], error))
             return false;
     }
     return true;
@@ -176,7 +176,7 @@ static bool split(splitting *s, uint32_t own, uint32_t apex, size_t count, sp_er
 
 static bool split_all(splitting *s, size_t *done, sp_error *error)
 {
-    const sp_mesh *mesh = s->draft->mesh;
+    const sp_mesh *mesh = s->edit->mesh;
     for (size_t from = 0, to; from < s->count; from = to) {
         uint32_t own = s->found[from].half_edge, apex = mesh->triangles[own / 3][(own % 3 + 2) % 3];
         for (to = from; to < s->count && s->found[to].half_edge == own; to++)
@@ -195,10 +195,10 @@ static bool split_all(splitting *s, size_t *done, sp_error *error)
     return true;
 }
 
-bool sp_split_at_corners(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_split_at_corners(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
 {
-    const sp_mesh *mesh = draft->mesh;
-    splitting s = {.draft = draft, .careful = careful};
+    const sp_mesh *mesh = edit->mesh;
+    splitting s = {.edit = edit, .careful = careful};
     s.radius = malloc((mesh->vertex_count + 1) * sizeof *s.radius);
     s.used = calloc(3 * mesh->triangle_count + 1, sizeof *s.used);
     s.touched = calloc(mesh->triangle_count + 1, sizeof *s.touched);

@@ -1,7 +1,7 @@
 /* Mending, step by step, until nothing is left that a step would do. What may do harm is tried first, and taken back
  * where the diagnosis then finds more of anything. */
 #include "mesh/diagnosis/flaw.h"
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 
 #include <stdlib.h>
 
@@ -21,13 +21,13 @@ static bool apply(const sp_mesh *mesh, sp_mender *mend, bool careful, sp_mesh **
     *made = NULL;
     *count = 0;
     for (int pass = 0; pass < MOST_PASSES; pass++) {
-        sp_mesh_draft draft;
+        sp_mesh_edit edit;
         size_t done = 0;
-        if (!sp_mesh_draft_open(&draft, *made ? *made : mesh, error))
+        if (!sp_mesh_edit_open(&edit, *made ? *made : mesh, error))
             return false;
         sp_mesh *next = NULL;
-        bool good = mend(&draft, careful, &done, error) && (!done || (next = sp_mesh_draft_mesh(&draft, error)));
-        sp_mesh_draft_close(&draft);
+        bool good = mend(&edit, careful, &done, error) && (!done || (next = sp_mesh_edit_mesh(&edit, error)));
+        sp_mesh_edit_close(&edit);
         if (!good || done) {
             sp_mesh_destroy(*made);
             *made = next;
@@ -157,9 +157,8 @@ static bool mend_all(mending *m, sp_error *error)
 /* The mesh without its degenerate triangles. */
 static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
 {
-    sp_mesh_draft draft = {
-        .mesh = mesh, .count = mesh->triangle_count, .triangles = mesh->triangles, .part = mesh->part};
-    return sp_mesh_draft_mesh(&draft, error);
+    sp_mesh_edit edit = {.mesh = mesh, .count = mesh->triangle_count, .triangles = mesh->triangles, .part = mesh->part};
+    return sp_mesh_edit_mesh(&edit, error);
 }
 
 sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error)

@@ -1,12 +1,12 @@
 /* Triangles that face the other side than their neighbours. */
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 
 #include <stdlib.h>
 
 #define TIE 1e-9 /* of the area */
 
 typedef struct {
-    sp_mesh_draft *draft;
+    sp_mesh_edit *edit;
     sp_vec3 middle;
     uint32_t *across;  /* [3 triangles]: the half edge beside it, of edges of two; else SP_NONE */
     uint8_t *label;    /* [triangles]: 0: not seen, else 1 and 2: of these, one kind is turned over */
@@ -23,8 +23,8 @@ typedef struct {
 
 static void find_neighbours(turning *t)
 {
-    const sp_mesh *mesh = t->draft->mesh;
-    const sp_half_edges *edges = &t->draft->edges;
+    const sp_mesh *mesh = t->edit->mesh;
+    const sp_half_edges *edges = &t->edit->edges;
     size_t of_edge;
     for (size_t i = 0; i < 3 * mesh->triangle_count; i += of_edge) {
         const uint32_t *edge = edges->order + i;
@@ -36,7 +36,7 @@ static void find_neighbours(turning *t)
 
 static void measure(const turning *t, uint32_t triangle, patch *found)
 {
-    const sp_mesh *mesh = t->draft->mesh;
+    const sp_mesh *mesh = t->edit->mesh;
     const uint32_t *corner = mesh->triangles[triangle];
     sp_vec3 a = sp_sub(mesh->vertices[corner[0]], t->middle), b = sp_sub(mesh->vertices[corner[1]], t->middle),
             c = sp_sub(mesh->vertices[corner[2]], t->middle);
@@ -58,7 +58,7 @@ static patch spread(turning *t, uint32_t first)
                 continue;
             }
             uint32_t other = t->across[h] / 3;
-            bool flipped = t->draft->edges.kind[h] == SP_EDGE_FLIPPED;
+            bool flipped = t->edit->edges.kind[h] == SP_EDGE_FLIPPED;
             uint8_t wanted = flipped ? 3 - t->label[own] : t->label[own];
             found.sound &= !flipped;
             if (!t->label[other]) {
@@ -85,7 +85,7 @@ static void turn(turning *t, const patch *found)
 {
     int label = label_to_turn(found);
     for (size_t i = 0; i < found->count; i++) {
-        uint32_t *corners = t->draft->triangles[t->members[i]];
+        uint32_t *corners = t->edit->triangles[t->members[i]];
         if (t->label[t->members[i]] != label)
             continue;
         uint32_t swap = corners[1];
@@ -95,13 +95,13 @@ static void turn(turning *t, const patch *found)
     }
 }
 
-bool sp_turn_over(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_turn_over(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
-    size_t count = draft->mesh->triangle_count;
+    size_t count = edit->mesh->triangle_count;
     sp_vec3 low, high;
-    sp_mesh_box(draft->mesh, &low, &high);
-    turning t = {draft,
+    sp_mesh_box(edit->mesh, &low, &high);
+    turning t = {edit,
                  sp_scale(sp_add(low, high), 0.5),
                  malloc((3 * count + 1) * sizeof *t.across),
                  calloc(count + 1, 1),

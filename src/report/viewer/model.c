@@ -256,7 +256,7 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator, co
             pack_pages(&layers, &packed, error))
             designs = described(page, &layers, quantities, &coder, &packed, error);
         object = designs ? surface_json(&layers, &surface, &around) : NULL;
-        sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
+        sp_camera camera = sp_camera_create(evaluator, page->result, &sp_viewpoints[0], 1);
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
             (exact && json_object_set(object, "exact", exact) != 0) ||

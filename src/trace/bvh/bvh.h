@@ -76,8 +76,8 @@ static inline void sp_bvh_child_box(const sp_bvh *bvh, const sp_bvh_node *node, 
     }
 }
 
-/* Has a node or block brought near. */
-static inline void sp_bvh_fetch(const sp_bvh *bvh, uint32_t child)
+/* Prefetches a node or block. */
+static inline void sp_bvh_prefetch(const sp_bvh *bvh, uint32_t child)
 {
     if (child & SP_BVH_LEAF) {
         const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
@@ -90,8 +90,8 @@ static inline void sp_bvh_fetch(const sp_bvh *bvh, uint32_t child)
     }
 }
 
-/* Has a triangle's corners brought near. */
-static inline void sp_bvh_fetch_corners(const sp_bvh *bvh, uint32_t triangle)
+/* Prefetches a triangle's corners. */
+static inline void sp_bvh_prefetch_corners(const sp_bvh *bvh, uint32_t triangle)
 {
     const sp_mesh *mesh = bvh->mesh;
     for (int i = 0; i < 3; i++)

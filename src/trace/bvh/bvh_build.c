@@ -15,7 +15,7 @@ enum {
     CHUNK = 1 << 14, /* triangles that one thread takes at a time before there are ranges */
     DEEP = 24,       /* from this depth on ranges are halved, which takes at most 12 levels more */
     BLOCKS_ROOM = 2, /* memory set aside for the blocks, in references a triangle: enough for five triangles a leaf */
-    AHEAD = 4,       /* leaves whose triangles are sent for before they are needed */
+    AHEAD = 4,       /* how many leaves ahead triangles are prefetched */
     UPPER = 0x40000000, /* marks a child of an upper node that is task number so and so */
 };
 
@@ -259,7 +259,7 @@ static void fill_block(const sp_bvh *bvh, const sp_bvh_reference *references, ui
     }
 }
 
-/* Fills the blocks of a part. What they take from the mesh lies anywhere, and is sent for in time. */
+/* Fills the blocks of a part. What they take from the mesh lies anywhere, and is prefetched. */
 static void fill_blocks(const builder *b, const part *p, sp_bvh *bvh, size_t first)
 {
     const sp_bvh_reference *references = b->buffers[0];
@@ -270,7 +270,7 @@ static void fill_blocks(const builder *b, const part *p, sp_bvh *bvh, size_t fir
                 __builtin_prefetch(bvh->mesh->triangles[references[l[2 * AHEAD].first + i].triangle]);
         if (p->leaf_count - k > AHEAD)
             for (uint32_t i = 0; i < l[AHEAD].count; i++)
-                sp_bvh_fetch_corners(bvh, references[l[AHEAD].first + i].triangle);
+                sp_bvh_prefetch_corners(bvh, references[l[AHEAD].first + i].triangle);
         fill_block(bvh, references + l->first, l->count, &bvh->blocks[first + k]);
     }
 }

@@ -264,7 +264,7 @@ static void name_parts(const sp_bvh_range *range, const cut *where, sp_bvh_range
                               .box = where->boxes[1]};
 }
 
-static void divide_alone(sp_bvh_reference *const buffers[2], const sp_bvh_range *range, sp_bvh_range parts[2])
+static void divide_serially(sp_bvh_reference *const buffers[2], const sp_bvh_range *range, sp_bvh_range parts[2])
 {
     const sp_bvh_reference *from = buffers[range->buffer] + range->first;
     binning b = choose_binning(range);
@@ -353,6 +353,6 @@ bool sp_bvh_divide(sp_bvh_reference *const buffers[2], const sp_bvh_range *range
     else if (range->count > CHUNK)
         return divide_together(buffers, range, threads, parts);
     else
-        divide_alone(buffers, range, parts);
+        divide_serially(buffers, range, parts);
     return true;
 }

@@ -48,16 +48,16 @@ static inline wide breadth_of(const sheared *s)
         wide_greater_amount(s->x[2], s->y[2]));
 }
 
-/* The weights of the corners by which the way meets the triangles, all of one sign where it does, and what rounding and
- * `blur`, by which corners may be moved, may change about them: derived in line_step.h. */
+/* The barycentric weights, not yet divided by their sum, by which the way meets the triangles, all of one sign where it
+ * does, and what rounding and `blur`, by which corners may be moved, may change about them: derived in line_step.h. */
 typedef struct {
     wide weight[3], least, largest, error;
     uint32_t inside; /* those that the way may meet */
-} weighed;
+} barycentric;
 
-static inline weighed weigh_sheared(const sheared *s, float blur)
+static inline barycentric barycentric_sheared(const sheared *s, float blur)
 {
-    weighed w;
+    barycentric w;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         w.weight[i] = wide_subtract_product(wide_multiply(s->x[k], s->y[j]), s->y[k], s->x[j]);
@@ -72,7 +72,7 @@ static inline weighed weigh_sheared(const sheared *s, float blur)
 }
 
 /* How far along the way meets the triangles, the inverse of the weights' sum, and which of them it surely meets. */
-static inline uint32_t meet_sheared(const sheared *s, const weighed *w, wide *depth, wide *inverse)
+static inline uint32_t meet_sheared(const sheared *s, const barycentric *w, wide *depth, wide *inverse)
 {
     wide sum = wide_add(wide_add(w->weight[0], w->weight[1]), w->weight[2]);
     *inverse = wide_divide(wide_set(1), sum);
@@ -124,8 +124,8 @@ static inline void form_weights(const sheared *s, wide half_u, wide half_v, weig
     }
 }
 
-/* The weights of eight ways in triangle i. */
-static inline void weigh_ways(const weights *w, int i, wide u, wide v, wide weight[3])
+/* The barycentric weights of eight ways in triangle i, likewise. */
+static inline void barycentric_of_ways(const weights *w, int i, wide u, wide v, wide weight[3])
 {
     for (int k = 0; k < 3; k++)
         weight[k] = wide_multiply_add(u, wide_set(w->by_u[k][i]),

@@ -16,8 +16,8 @@ typedef struct {
     uint32_t ray[SP_ANSWERS], triangle[SP_ANSWERS], z[SP_ANSWERS];
 } answers;
 
-/* What the test in line.c and weigh.h makes of them, all lanes at once: a compiler sees vectors in these loops, and
- * every operation is the one of line.c, so that the bits are. All by the line's axes x, y, z. */
+/* What the test in line.c and barycentric.h makes of them, all lanes at once: a compiler sees vectors in these loops,
+ * and every operation is the one of line.c, so that the bits are. All by the line's axes x, y, z. */
 typedef struct {
     double origin[3][SP_ANSWERS], velocity[3][SP_ANSWERS];
     double corner[3][3][SP_ANSWERS]; /* [corner][axis] */
@@ -112,7 +112,7 @@ static inline void give_answers(answers *a)
     if (a->count == 0)
         return;
     for (int i = 0; i < a->count; i++)
-        sp_bvh_fetch_corners(a->bvh, a->triangle[i]);
+        sp_bvh_prefetch_corners(a->bvh, a->triangle[i]);
     gather_lines(a, &l);
     finish_answers(a, &l);
 }

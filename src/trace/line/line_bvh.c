@@ -88,25 +88,25 @@ bool sp_bvh_line_begin(const sp_bvh *bvh, const sp_ray *ray, double place[3], do
     return true;
 }
 
-static void ask(const sp_bvh *bvh, sp_bvh_flight *flight, uint32_t triangle)
+static void ask(const sp_bvh *bvh, sp_line_flight *flight, uint32_t triangle)
 {
     sp_corners corners;
     sp_bvh_corners(bvh, triangle, corners);
     sp_line_test(&flight->line, (const double(*)[3])corners, triangle, &flight->search);
 }
 
-void sp_bvh_flight_settle(const sp_bvh_stream *stream, sp_bvh_flight *flight, uint32_t triangle)
+void sp_line_flight_settle(const sp_line_queue *queue, sp_line_flight *flight, uint32_t triangle)
 {
-    const sp_ray *ray = &stream->rays[flight->ray.number];
+    const sp_ray *ray = &queue->rays[flight->ray.number];
     const sp_ray_search *search = &flight->search;
     if (!flight->in_doubt) {
         sp_line_start(&flight->line, ray);
-        flight->search = sp_ray_search_start(ray, !stream->hits);
+        flight->search = sp_ray_search_start(ray, !queue->hits);
     }
     flight->in_doubt = true;
-    ask(stream->bvh, flight, triangle);
+    ask(queue->bvh, flight, triangle);
     if (flight->triangle != SP_NONE)
-        ask(stream->bvh, flight, flight->triangle);
+        ask(queue->bvh, flight, flight->triangle);
     if (search->best.triangle == SP_NONE)
         return;
     float way = (float)((search->limit - flight->ray.start) * flight->ray.rate);
@@ -130,9 +130,9 @@ sp_hit sp_bvh_line_ask(const sp_bvh *bvh, const sp_ray *ray, uint32_t triangle)
 void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays,
                         const sp_direction_entry *order, size_t count, sp_hit *hits, bool *occluded)
 {
-    static void (*const together[])(sp_bvh_stream *) = SP_KERNELS(sp_bvh_lines);
-    static void (*const alone[])(sp_bvh_stream *) = SP_KERNELS(sp_bvh_lines_alone);
-    sp_bvh_stream stream = {
+    static void (*const together[])(sp_line_queue *) = SP_KERNELS(sp_bvh_lines);
+    static void (*const single[])(sp_line_queue *) = SP_KERNELS(sp_bvh_lines_single);
+    sp_line_queue queue = {
         .bvh = bvh, .rays = rays, .order = order, .count = count, .hits = hits, .occluded = occluded};
     for (size_t i = 0; bvh->node_count == 0 && i < count; i++) {
         if (hits)
@@ -141,5 +141,5 @@ void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const s
             occluded[i] = false;
     }
     if (bvh->node_count > 0)
-        (count < FEW ? alone : together)[instructions](&stream);
+        (count < FEW ? single : together)[instructions](&queue);
 }

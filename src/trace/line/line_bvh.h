@@ -48,7 +48,7 @@ typedef struct {
     sp_ray_search search;
     uint32_t child[SP_BVH_STACK + SP_BVH_WIDTH];
     float way[SP_BVH_STACK + SP_BVH_WIDTH]; /* where the line enters */
-} sp_bvh_flight;
+} sp_line_flight;
 
 /* Rays to be traced, in this order or another, and where their answers go: hits, or occluded where that is NULL. */
 typedef struct {
@@ -58,7 +58,7 @@ typedef struct {
     size_t count, next;              /* next: the first not yet begun */
     sp_hit *hits;
     bool *occluded;
-} sp_bvh_stream;
+} sp_line_queue;
 
 /* For a line from afar, or that begins before time 0: where it comes near the box, in the hierarchy's space, and at
  * what time; false where it never does. Infinitely far where single precision would not do there either. */
@@ -68,18 +68,18 @@ sp_hit sp_bvh_line_walk(const sp_bvh *bvh, const sp_ray *ray, bool any);
 /* What double precision makes of a line and a triangle. */
 sp_hit sp_bvh_line_ask(const sp_bvh *bvh, const sp_ray *ray, uint32_t triangle);
 /* Asks double precision about a triangle and the best so far. */
-void sp_bvh_flight_settle(const sp_bvh_stream *stream, sp_bvh_flight *flight, uint32_t triangle);
+void sp_line_flight_settle(const sp_line_queue *queue, sp_line_flight *flight, uint32_t triangle);
 
-/* Traces rays, each by itself; `order` as in sp_bvh_stream. */
+/* Traces rays, each by itself; `order` as in sp_line_queue. */
 void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays,
                         const sp_direction_entry *order, size_t count, sp_hit *hits, bool *occluded);
 
 /* The kernels, one for each set of instructions: sixteen lines at a time, and one at a time. */
-void sp_bvh_lines_portable(sp_bvh_stream *stream);
-void sp_bvh_lines_avx2(sp_bvh_stream *stream);
-void sp_bvh_lines_avx512(sp_bvh_stream *stream);
-void sp_bvh_lines_alone_portable(sp_bvh_stream *stream);
-void sp_bvh_lines_alone_avx2(sp_bvh_stream *stream);
-void sp_bvh_lines_alone_avx512(sp_bvh_stream *stream);
+void sp_bvh_lines_portable(sp_line_queue *queue);
+void sp_bvh_lines_avx2(sp_line_queue *queue);
+void sp_bvh_lines_avx512(sp_line_queue *queue);
+void sp_bvh_lines_single_portable(sp_line_queue *queue);
+void sp_bvh_lines_single_avx2(sp_line_queue *queue);
+void sp_bvh_lines_single_avx512(sp_line_queue *queue);
 
 #endif

@@ -24,7 +24,7 @@ typedef struct {
 } waiting;
 
 typedef struct {
-    sp_bvh_stream *stream;
+    sp_line_queue *queue;
     const sp_bvh *bvh;
     /* Where what comes next is, and its bytes: looked up, as a branch would be guesswork. */
     const char *base[WAITING];
@@ -33,13 +33,13 @@ typedef struct {
     sp_bvh_line ready[SP_LINES];
     int ready_count, ready_next; /* those from the latter on have not begun */
     answers answers;
-    sp_bvh_flight flights[FLIGHTS];
+    sp_line_flight flights[FLIGHTS];
 } work;
 
-/* Sends for what is on top of the stack, which comes next. */
+/* Prefetches what is on top of the stack, which comes next. */
 static inline void go_on(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *flight = &w->flights[number];
+    sp_line_flight *flight = &w->flights[number];
     uint32_t child = flight->child[--flight->height], kind = child >> KIND_SHIFT, place = child & ~END;
     const char *line = w->base[kind] + (size_t)place * w->size[kind];
     flight->current = place;
@@ -54,7 +54,7 @@ static inline void go_on(work *w, waiting *waiting, uint32_t number)
 
 static inline void visit_node(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *flight = &w->flights[number];
+    sp_line_flight *flight = &w->flights[number];
     const sp_bvh_node *node = &w->bvh->nodes[flight->current];
     int height = flight->height;
     wide enters, leaves;
@@ -66,7 +66,7 @@ static inline void visit_node(work *w, waiting *waiting, uint32_t number)
 
 static inline void visit_block(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *flight = &w->flights[number];
+    sp_line_flight *flight = &w->flights[number];
     test_block(&w->bvh->blocks[flight->current], &flight->ray, &flight->found);
     if (flight->found.maybe)
         waiting->hits |= 1u << number;
@@ -75,7 +75,7 @@ static inline void visit_block(work *w, waiting *waiting, uint32_t number)
 }
 
 /* Takes from the stack what the line enters too late. */
-static inline void cull(sp_bvh_flight *flight)
+static inline void cull(sp_line_flight *flight)
 {
     int kept = 0;
     wide last = wide_set(flight->ray.last);
@@ -88,10 +88,10 @@ static inline void cull(sp_bvh_flight *flight)
 
 static inline void decide(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *flight = &w->flights[number];
+    sp_line_flight *flight = &w->flights[number];
     float last = flight->ray.last;
-    take_found(w->stream, flight, &w->bvh->blocks[flight->current]);
-    if (!w->stream->hits && flight->triangle != SP_NONE)
+    take_found(w->queue, flight, &w->bvh->blocks[flight->current]);
+    if (!w->queue->hits && flight->triangle != SP_NONE)
         flight->height = 1;
     else if (flight->ray.last != last)
         cull(flight);
@@ -101,11 +101,11 @@ static inline void decide(work *w, waiting *waiting, uint32_t number)
 /* Lets the next line begin, if there is one. */
 static inline void begin(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *flight = &w->flights[number];
+    sp_line_flight *flight = &w->flights[number];
     while (w->ready_next == w->ready_count) {
-        if (w->stream->next == w->stream->count)
+        if (w->queue->next == w->queue->count)
             return;
-        w->ready_count = make_ready(w->stream, SP_LINES, w->ready);
+        w->ready_count = make_ready(w->queue, SP_LINES, w->ready);
         w->ready_next = 0;
     }
     flight->ray = w->ready[w->ready_next++];
@@ -121,24 +121,24 @@ static inline void begin(work *w, waiting *waiting, uint32_t number)
 
 static inline void end(work *w, uint32_t number)
 {
-    const sp_bvh_flight *flight = &w->flights[number];
-    sp_bvh_stream *stream = w->stream;
+    const sp_line_flight *flight = &w->flights[number];
+    sp_line_queue *queue = w->queue;
     uint32_t ray = flight->ray.number;
-    if (!stream->hits)
-        stream->occluded[ray] = flight->triangle != SP_NONE;
+    if (!queue->hits)
+        queue->occluded[ray] = flight->triangle != SP_NONE;
     else if (flight->triangle == SP_NONE)
-        stream->hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
+        queue->hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
     else
         note_answer(&w->answers, ray, flight->triangle, flight->ray.z);
     if (w->answers.count == SP_ANSWERS)
         give_answers(&w->answers);
 }
 
-void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)
+void SP_KERNEL(sp_bvh_lines)(sp_line_queue *queue)
 {
     work w;
-    w.stream = stream;
-    w.bvh = stream->bvh;
+    w.queue = queue;
+    w.bvh = queue->bvh;
     w.base[TO_NODE] = w.base[TO_HIT] = w.base[TO_END] = (const char *)w.bvh->nodes;
     w.base[TO_BLOCK] = (const char *)w.bvh->blocks;
     w.size[TO_NODE] = w.size[TO_HIT] = w.size[TO_END] = sizeof *w.bvh->nodes;
@@ -146,7 +146,7 @@ void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)
     w.more[TO_NODE] = w.more[TO_HIT] = w.more[TO_END] = 0;
     w.more[TO_BLOCK] = 64;
     w.ready_count = w.ready_next = 0;
-    start_answers(&w.answers, stream->bvh, stream->rays, stream->hits);
+    start_answers(&w.answers, queue->bvh, queue->rays, queue->hits);
     waiting waiting = {0, 0, 0, 0};
     for (uint32_t i = 0; i < FLIGHTS; i++)
         begin(&w, &waiting, i);

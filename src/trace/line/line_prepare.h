@@ -118,27 +118,27 @@ static inline void put_line(const line_lanes *l, int i, sp_bvh_line *line)
     line->skip = l->skip[i];
 }
 
-static inline void answer_line(const sp_bvh_stream *stream, size_t ray, sp_hit hit)
+static inline void answer_line(const sp_line_queue *queue, size_t ray, sp_hit hit)
 {
-    if (stream->hits)
-        stream->hits[ray] = hit;
+    if (queue->hits)
+        queue->hits[ray] = hit;
     else
-        stream->occluded[ray] = hit.triangle != SP_NONE;
+        queue->occluded[ray] = hit.triangle != SP_NONE;
 }
 
-/* Takes the stream's next rays; idle lanes repeat the last. */
-static inline void take_rays(sp_bvh_stream *stream, line_lanes *l, int lanes)
+/* Takes the queue's next rays; idle lanes repeat the last. */
+static inline void take_rays(sp_line_queue *queue, line_lanes *l, int lanes)
 {
-    size_t left = stream->count - stream->next;
+    size_t left = queue->count - queue->next;
     l->count = left < (size_t)lanes ? (int)left : lanes;
     for (int i = 0; i < lanes; i++) {
-        size_t at = stream->next + (size_t)(i < l->count ? i : l->count - 1), number = at;
-        if (stream->order) {
-            number = stream->order[at].ray;
+        size_t at = queue->next + (size_t)(i < l->count ? i : l->count - 1), number = at;
+        if (queue->order) {
+            number = queue->order[at].ray;
             size_t ahead = at + (size_t)lanes;
-            __builtin_prefetch(&stream->rays[stream->order[ahead < stream->count ? ahead : at].ray]);
+            __builtin_prefetch(&queue->rays[queue->order[ahead < queue->count ? ahead : at].ray]);
         }
-        const sp_ray *ray = &stream->rays[number];
+        const sp_ray *ray = &queue->rays[number];
         l->origin[0][i] = ray->origin.x;
         l->origin[1][i] = ray->origin.y;
         l->origin[2][i] = ray->origin.z;
@@ -150,14 +150,14 @@ static inline void take_rays(sp_bvh_stream *stream, line_lanes *l, int lanes)
         l->number[i] = (uint32_t)number;
         l->skip[i] = ray->skip;
     }
-    stream->next += (size_t)l->count;
+    queue->next += (size_t)l->count;
 }
 
 /* Lets a line from afar begin where it comes near the box; false where it never does. */
-static inline bool come_near(const sp_bvh_stream *stream, line_lanes *l, int i)
+static inline bool come_near(const sp_line_queue *queue, line_lanes *l, int i)
 {
     double place[3];
-    if (!sp_bvh_line_begin(stream->bvh, &stream->rays[l->number[i]], place, &l->start[i]))
+    if (!sp_bvh_line_begin(queue->bvh, &queue->rays[l->number[i]], place, &l->start[i]))
         return false;
     l->reach[i] = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -167,27 +167,27 @@ static inline bool come_near(const sp_bvh_stream *stream, line_lanes *l, int i)
     return true;
 }
 
-/* Makes the stream's next lines ready, `lanes` at a time; those for which single precision will not do get their
+/* Makes the queue's next lines ready, `lanes` at a time; those for which single precision will not do get their
  * answers. Returns how many are ready. */
-static inline __attribute__((always_inline)) int make_ready(sp_bvh_stream *stream, int lanes, sp_bvh_line *ready)
+static inline __attribute__((always_inline)) int make_ready(sp_line_queue *queue, int lanes, sp_bvh_line *ready)
 {
     line_lanes l;
     uint32_t beside = 0;
     int count = 0;
-    take_rays(stream, &l, lanes);
-    see_origins(&l, lanes, stream->bvh);
+    take_rays(queue, &l, lanes);
+    see_origins(&l, lanes, queue->bvh);
     for (int i = 0; i < l.count; i++)
         if (l.far[i] != 0)
-            beside |= (uint32_t)!come_near(stream, &l, i) << i;
-    see_directions(&l, lanes, stream->bvh->scale);
+            beside |= (uint32_t)!come_near(queue, &l, i) << i;
+    see_directions(&l, lanes, queue->bvh->scale);
     see_ways(&l, lanes);
     see_slopes(&l, lanes);
     for (int i = 0; i < l.count; i++) {
-        const sp_ray *ray = &stream->rays[l.number[i]];
+        const sp_ray *ray = &queue->rays[l.number[i]];
         if (beside >> i & 1)
-            answer_line(stream, l.number[i], (sp_hit){INFINITY, 0, 0, SP_NONE});
+            answer_line(queue, l.number[i], (sp_hit){INFINITY, 0, 0, SP_NONE});
         else if (l.unfit[i] != 0)
-            answer_line(stream, l.number[i], sp_bvh_line_walk(stream->bvh, ray, !stream->hits));
+            answer_line(queue, l.number[i], sp_bvh_line_walk(queue->bvh, ray, !queue->hits));
         else
             put_line(&l, i, &ready[count++]);
     }

@@ -51,7 +51,7 @@ static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray,
     const float *origin = ray->origin, *direction = ray->direction;
     sheared seen =
         shear_block(block, (view){x, y, z, {origin[x], origin[y], origin[z]}, {direction[x], direction[y]}, ray->sign});
-    weighed w = weigh_sheared(&seen, ray->blur);
+    barycentric w = barycentric_sheared(&seen, ray->blur);
     found->maybe = found->surely = 0;
     if (!w.inside)
         return;
@@ -69,30 +69,30 @@ static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray,
 }
 
 /* Takes a hit that is sure in single precision, or asks double precision. */
-static inline void take(const sp_bvh_stream *stream, sp_bvh_flight *flight, uint32_t triangle, bool sure, float low,
+static inline void take(const sp_line_queue *queue, sp_line_flight *flight, uint32_t triangle, bool sure, float low,
                         float high)
 {
     sp_bvh_line *ray = &flight->ray;
-    bool any = !stream->hits;
+    bool any = !queue->hits;
     if (triangle == ray->skip || (sure && (low > ray->last || high < ray->first)))
         return;
     if (!sure || low < ray->surely_first || high > ray->surely_last || (high >= flight->low && !any)) {
-        sp_bvh_flight_settle(stream, flight, triangle);
+        sp_line_flight_settle(queue, flight, triangle);
     } else {
         flight->triangle = triangle;
         flight->low = low;
         ray->last = high;
-        __builtin_prefetch(&stream->bvh->mesh->triangles[triangle]);
+        __builtin_prefetch(&queue->bvh->mesh->triangles[triangle]);
     }
 }
 
 /* Takes what the block that the flight visits has found. */
-static inline void take_found(const sp_bvh_stream *stream, sp_bvh_flight *flight, const sp_bvh_block *block)
+static inline void take_found(const sp_line_queue *queue, sp_line_flight *flight, const sp_bvh_block *block)
 {
     const sp_bvh_verdict *found = &flight->found;
     for (uint32_t rest = found->maybe; rest; rest &= rest - 1) {
         int i = __builtin_ctz(rest);
-        take(stream, flight, block->triangle[i], found->surely >> i & 1, found->low[i], found->high[i]);
+        take(queue, flight, block->triangle[i], found->surely >> i & 1, found->low[i], found->high[i]);
     }
 }
 

@@ -41,29 +41,30 @@ static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
     return *from <= *to;
 }
 
-sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh_jet *jet, double *from, double *to)
+sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_parabola_flight *flight,
+                                          double *from, double *to)
 {
     const double *centre = bvh->centre, scale = bvh->scale;
     double origin[3], velocity[3];
-    sp_to_array(jet->asked->origin, origin);
-    sp_to_array(jet->asked->velocity, velocity);
-    jet->summed = 1;
-    jet->speed = 0;
-    jet->strength = pull->strength * scale;
+    sp_to_array(flight->asked->origin, origin);
+    sp_to_array(flight->asked->velocity, velocity);
+    flight->summed = 1;
+    flight->speed = 0;
+    flight->strength = pull->strength * scale;
     for (int k = 0; k < 3; k++) {
-        sp_bvh_course *c = &jet->course[k];
+        sp_bvh_course *c = &flight->course[k];
         *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, pull->vector[k] * scale, 0};
-        jet->summed = sp_greater(jet->summed, fabs(c->place));
-        jet->speed = sp_greater(jet->speed, fabs(c->speed));
+        flight->summed = sp_greater(flight->summed, fabs(c->place));
+        flight->speed = sp_greater(flight->speed, fabs(c->speed));
         if (c->pull == 0) {
             c->inverse = 1 / c->speed;
             cut_straight(c, from, to);
         }
     }
-    if (!isfinite(jet->speed + jet->strength + origin[0] + origin[1] + origin[2] + velocity[0] + velocity[1] +
+    if (!isfinite(flight->speed + flight->strength + origin[0] + origin[1] + origin[2] + velocity[0] + velocity[1] +
                   velocity[2]))
         return SP_BVH_NOWHERE;
-    if (!(jet->summed <= SP_BVH_SUMMED))
+    if (!(flight->summed <= SP_BVH_SUMMED))
         return SP_BVH_FAR;
     return *from <= *to ? SP_BVH_READY : SP_BVH_NOWHERE;
 }
@@ -118,19 +119,19 @@ static inline uint32_t diagonal_of(uint32_t falls)
     return falls & 1 ? (~falls & 6) | 1 : falls & 6;
 }
 
-sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to)
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_parabola_flight *flight, double from, double to)
 {
-    sp_bvh_arc *arc = &jet->arc;
+    sp_bvh_arc *arc = &flight->arc;
     double t_min = from, t_max = to, fastest = 0, span;
     for (int k = 0; k < 3; k++)
-        if (jet->course[k].pull != 0 && !cut_curved(&jet->course[k], &from, &to))
+        if (flight->course[k].pull != 0 && !cut_curved(&flight->course[k], &from, &to))
             return SP_BVH_NOWHERE;
     double latest = sp_greater(fabs(from), fabs(to));
     for (int k = 0; k < 3; k++) {
-        const sp_bvh_course *c = &jet->course[k];
+        const sp_bvh_course *c = &flight->course[k];
         fastest = sp_greater(fastest, sp_greater(fabs(c->speed + from * c->pull), fabs(c->speed + to * c->pull)));
     }
-    if (!(2 * (jet->summed + latest * (jet->speed + 0.5 * latest * jet->strength)) <= SP_BVH_SUMMED &&
+    if (!(2 * (flight->summed + latest * (flight->speed + 0.5 * latest * flight->strength)) <= SP_BVH_SUMMED &&
           (to - from) * fastest <= 4.2 && fastest > 1e-100 && fastest < 1e100))
         return SP_BVH_FAR;
     arc->start = from;
@@ -141,7 +142,7 @@ sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double f
     uint32_t falls = 0;
     for (int i = 0; i < 3; i++) {
         int k = arc->axis[i];
-        const sp_bvh_course *c = &jet->course[k];
+        const sp_bvh_course *c = &flight->course[k];
         arc->origin[k] = (float)course_at(c, from);
         arc->direction[k] = (float)((c->speed + from * c->pull) * span);
         arc->bend[k] = (float)(0.5 * c->pull * span * span);
@@ -159,12 +160,12 @@ sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double f
     return SP_BVH_READY;
 }
 
-void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc)
+void sp_bvh_start_take(const sp_parabola_queue *queue, int i, sp_bvh_arc *arc)
 {
-    const sp_bvh_starts *s = &jets->starts;
+    const sp_bvh_starts *s = &queue->starts;
     uint32_t falls = 0;
     for (int k = 0; k < 3; k++) {
-        int axis = arc->axis[k] = jets->axis[k];
+        int axis = arc->axis[k] = queue->axis[k];
         arc->origin[axis] = s->origin[k][i];
         arc->direction[axis] = s->direction[k][i];
         arc->bend[axis] = k ? 0 : s->bend[i];

@@ -8,27 +8,27 @@ typedef struct {
     double from, to; /* s */
 } pending;
 
-static void test_block(const sp_parabola *flight, const sp_bvh *bvh, const sp_bvh_block *block, sp_ray_search *search)
+static void test_block(const sp_parabola *parabola, const sp_bvh *bvh, const sp_bvh_block *block, sp_ray_search *search)
 {
     for (int i = 0; i < SP_BVH_WIDTH && block->triangle[i] != SP_NONE; i++) {
         sp_corners corners;
         sp_bvh_corners(bvh, block->triangle[i], corners);
-        sp_parabola_test(flight, (const double(*)[3])corners, block->triangle[i], search);
+        sp_parabola_test(parabola, (const double(*)[3])corners, block->triangle[i], search);
     }
 }
 
-static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, double to, sp_ray_search *search)
+static void walk(const sp_parabola *parabola, const sp_bvh *bvh, double from, double to, sp_ray_search *search)
 {
     pending stack[SP_BVH_STACK];
     int height = 1;
     stack[0] = (pending){0, from, to};
-    double margin = sp_parabola_margin(flight, sp_greater(fabs(from), fabs(to)));
+    double margin = sp_parabola_margin(parabola, sp_greater(fabs(from), fabs(to)));
     while (height > 0 && !sp_ray_search_done(search)) {
         pending at = stack[--height];
         if (at.from > search->limit)
             continue;
         if (at.child & SP_BVH_LEAF) {
-            test_block(flight, bvh, &bvh->blocks[at.child - SP_BVH_LEAF], search);
+            test_block(parabola, bvh, &bvh->blocks[at.child - SP_BVH_LEAF], search);
             continue;
         }
         const sp_bvh_node *node = &bvh->nodes[at.child];
@@ -38,7 +38,8 @@ static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, doub
             bool passes = true;
             sp_bvh_child_box(bvh, node, i, low, high);
             for (int axis = 0; passes && axis < 3; axis++)
-                passes = sp_parabola_cut(flight, axis, low[axis] - margin, high[axis] + margin, &child.from, &child.to);
+                passes =
+                    sp_parabola_cut(parabola, axis, low[axis] - margin, high[axis] + margin, &child.from, &child.to);
             if (passes)
                 stack[height++] = child;
         }
@@ -46,10 +47,10 @@ static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, doub
 }
 
 /* When a coordinate next turns after `from`; `to` if none does before. */
-static double next_turn(const sp_bvh_jet *jet, double from, double to)
+static double next_turn(const sp_parabola_flight *flight, double from, double to)
 {
     for (int k = 0; k < 3; k++) {
-        const sp_bvh_course *c = &jet->course[k];
+        const sp_bvh_course *c = &flight->course[k];
         double turn = c->pull != 0 ? -c->speed / c->pull : from;
         if (turn > from && turn < to)
             to = turn;
@@ -57,12 +58,12 @@ static double next_turn(const sp_bvh_jet *jet, double from, double to)
     return to;
 }
 
-static void search_far(const sp_bvh_jets *jets, sp_bvh_jet *jet)
+static void search_far(const sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
-    const sp_bvh *bvh = jets->bvh;
-    sp_parabola *p = &jet->parabola;
-    sp_ray_search *search = &jet->search;
-    if (!sp_parabola_start(p, jet->asked, jets->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
+    const sp_bvh *bvh = queue->bvh;
+    sp_parabola *p = &flight->parabola;
+    sp_ray_search *search = &flight->search;
+    if (!sp_parabola_start(p, flight->asked, queue->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
         return;
     double from = search->t_min, last = search->limit;
     while (from <= sp_lesser(last, search->limit) && !sp_ray_search_done(search)) {
@@ -72,201 +73,203 @@ static void search_far(const sp_bvh_jets *jets, sp_bvh_jet *jet)
             break;
         from = to;
     }
-    jet->triangle = search->best.triangle;
+    flight->triangle = search->best.triangle;
 }
 
-static void ask(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle)
+static void ask(const sp_parabola_queue *queue, sp_parabola_flight *flight, uint32_t triangle)
 {
     sp_corners corners;
-    if (!jet->parabola_ready) /* its numbers are finite, or it would not be here */
-        sp_parabola_start(&jet->parabola, jet->asked, jets->pull, jets->bvh->low, jets->bvh->high);
-    jet->parabola_ready = true;
-    sp_bvh_corners(jets->bvh, triangle, corners);
-    sp_parabola_test(&jet->parabola, (const double(*)[3])corners, triangle, &jet->search);
+    if (!flight->parabola_ready) /* its numbers are finite, or it would not be here */
+        sp_parabola_start(&flight->parabola, flight->asked, queue->pull, queue->bvh->low, queue->bvh->high);
+    flight->parabola_ready = true;
+    sp_bvh_corners(queue->bvh, triangle, corners);
+    sp_parabola_test(&flight->parabola, (const double(*)[3])corners, triangle, &flight->search);
 }
 
 /* Where the search's limit is along the piece. */
-static inline float limit_way(const sp_bvh_jet *jet)
+static inline float limit_way(const sp_parabola_flight *flight)
 {
-    return (float)((jet->search.limit - jet->arc.start) * jet->arc.rate);
+    return (float)((flight->search.limit - flight->arc.start) * flight->arc.rate);
 }
 
-void sp_bvh_jet_settle(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle)
+void sp_parabola_flight_settle(const sp_parabola_queue *queue, sp_parabola_flight *flight, uint32_t triangle)
 {
-    ask(jets, jet, triangle);
-    if (jet->triangle != SP_NONE)
-        ask(jets, jet, jet->triangle);
-    if (jet->search.best.triangle == SP_NONE)
+    ask(queue, flight, triangle);
+    if (flight->triangle != SP_NONE)
+        ask(queue, flight, flight->triangle);
+    if (flight->search.best.triangle == SP_NONE)
         return;
-    float way = limit_way(jet);
-    jet->triangle = jet->search.best.triangle;
-    jet->low = way - SP_BVH_PAD;
-    jet->arc.last = way + SP_BVH_PAD < jet->arc.last ? way + SP_BVH_PAD : jet->arc.last;
+    float way = limit_way(flight);
+    flight->triangle = flight->search.best.triangle;
+    flight->low = way - SP_BVH_PAD;
+    flight->arc.last = way + SP_BVH_PAD < flight->arc.last ? way + SP_BVH_PAD : flight->arc.last;
 }
 
-static inline void visit_root(sp_bvh_jet *jet)
+static inline void visit_root(sp_parabola_flight *flight)
 {
-    jet->height = 1;
-    jet->child[0] = 0;
-    jet->from[0] = jet->until[0] = 0;
+    flight->height = 1;
+    flight->child[0] = 0;
+    flight->from[0] = flight->until[0] = 0;
 }
 
 /* Makes the first piece from `from` on ready that is in the box; false where there is none before the search's limit.
  */
-static bool begin_piece(const sp_bvh_jets *jets, sp_bvh_jet *jet, double from)
+static bool begin_piece(const sp_parabola_queue *queue, sp_parabola_flight *flight, double from)
 {
-    if (!jet->course_ready) {
-        double first = from, last = jet->last;
-        sp_bvh_jet_prepare(jets->bvh, jets->pull, jet, &first, &last);
-        jet->course_ready = true;
+    if (!flight->course_ready) {
+        double first = from, last = flight->last;
+        sp_parabola_flight_prepare(queue->bvh, queue->pull, flight, &first, &last);
+        flight->course_ready = true;
     }
-    jet->later = true;
-    while (jet->later && from <= sp_lesser(jet->last, jet->search.limit)) {
-        jet->to = next_turn(jet, from, jet->last);
-        jet->later = jet->to < jet->last;
-        sp_bvh_fitness fitness = sp_bvh_arc_prepare(jets->pull, jet, from, sp_lesser(jet->to, jet->search.limit));
+    flight->later = true;
+    while (flight->later && from <= sp_lesser(flight->last, flight->search.limit)) {
+        flight->to = next_turn(flight, from, flight->last);
+        flight->later = flight->to < flight->last;
+        sp_bvh_fitness fitness =
+            sp_bvh_arc_prepare(queue->pull, flight, from, sp_lesser(flight->to, flight->search.limit));
         if (fitness == SP_BVH_FAR) {
-            jet->later = false;
-            search_far(jets, jet);
+            flight->later = false;
+            search_far(queue, flight);
         } else if (fitness == SP_BVH_READY) {
-            visit_root(jet);
-            if (jet->triangle != SP_NONE)
-                jet->low = limit_way(jet) - SP_BVH_PAD;
+            visit_root(flight);
+            if (flight->triangle != SP_NONE)
+                flight->low = limit_way(flight) - SP_BVH_PAD;
             return true;
         }
-        from = jet->to;
+        from = flight->to;
     }
     return false;
 }
 
-static void set_out(const sp_bvh_jets *jets, uint32_t number, sp_bvh_jet *jet)
+static void set_out(const sp_parabola_queue *queue, uint32_t number, sp_parabola_flight *flight)
 {
-    jet->asked = &jets->rays[number];
-    jet->number = number;
-    jet->search = sp_ray_search_start(jet->asked, !jets->hits);
-    jet->parabola_ready = jet->course_ready = jet->ending = false;
-    jet->triangle = SP_NONE;
-    jet->low = INFINITY;
+    flight->asked = &queue->rays[number];
+    flight->number = number;
+    flight->search = sp_ray_search_start(flight->asked, !queue->hits);
+    flight->parabola_ready = flight->course_ready = flight->ending = false;
+    flight->triangle = SP_NONE;
+    flight->low = INFINITY;
 }
 
 /* False where there is nothing to visit. */
-static bool begin(const sp_bvh_jets *jets, uint32_t number, sp_bvh_jet *jet)
+static bool begin(const sp_parabola_queue *queue, uint32_t number, sp_parabola_flight *flight)
 {
-    set_out(jets, number, jet);
-    if (jets->bvh->node_count == 0)
+    set_out(queue, number, flight);
+    if (queue->bvh->node_count == 0)
         return false;
-    double from = jet->search.t_min;
-    jet->last = jet->search.limit;
-    jet->course_ready = true;
-    sp_bvh_fitness fitness = sp_bvh_jet_prepare(jets->bvh, jets->pull, jet, &from, &jet->last);
+    double from = flight->search.t_min;
+    flight->last = flight->search.limit;
+    flight->course_ready = true;
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(queue->bvh, queue->pull, flight, &from, &flight->last);
     if (fitness == SP_BVH_FAR)
-        search_far(jets, jet);
-    return fitness == SP_BVH_READY && begin_piece(jets, jet, from);
+        search_far(queue, flight);
+    return fitness == SP_BVH_READY && begin_piece(queue, flight, from);
 }
 
 /* Likewise, for the next of those that are prepared. */
-static bool begin_prepared(sp_bvh_jets *jets, sp_bvh_jet *jet)
+static bool begin_prepared(sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
-    sp_bvh_starts *s = &jets->starts;
+    sp_bvh_starts *s = &queue->starts;
     int i = s->next++;
     if (s->fits[i] == SP_BVH_FAR)
-        return begin(jets, s->ray[i], jet);
-    set_out(jets, s->ray[i], jet);
+        return begin(queue, s->ray[i], flight);
+    set_out(queue, s->ray[i], flight);
     if (s->fits[i] == SP_BVH_NOWHERE)
         return false;
-    sp_bvh_start_take(jets, i, &jet->arc);
-    jet->later = s->later[i];
-    jet->to = s->to[i];
-    jet->last = s->end[i];
-    visit_root(jet);
+    sp_bvh_start_take(queue, i, &flight->arc);
+    flight->later = s->later[i];
+    flight->to = s->to[i];
+    flight->last = s->end[i];
+    visit_root(flight);
     return true;
 }
 
-static void prepare_starts(sp_bvh_jets *jets)
+static void prepare_starts(sp_parabola_queue *queue)
 {
-    sp_bvh_starts *s = &jets->starts;
-    for (s->count = 0; s->count < SP_BVH_STARTS && jets->next < jets->count; s->count++)
-        s->ray[s->count] = jets->order[jets->next++];
+    sp_bvh_starts *s = &queue->starts;
+    for (s->count = 0; s->count < SP_BVH_STARTS && queue->next < queue->count; s->count++)
+        s->ray[s->count] = queue->order[queue->next++];
     s->next = 0;
-    jets->prepare(jets, s);
+    queue->prepare(queue, s);
 }
 
 /* Whether double precision has decided about the best. */
-static inline bool is_exact(const sp_bvh_jet *jet)
+static inline bool is_exact(const sp_parabola_flight *flight)
 {
-    return jet->triangle == jet->search.best.triangle;
+    return flight->triangle == flight->search.best.triangle;
 }
 
-bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet)
+bool sp_parabola_flight_go_on(const sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
     /* What was surely hit was so within the last piece. */
-    if (is_exact(jet) && jet->later && !sp_ray_search_done(&jet->search) && begin_piece(jets, jet, jet->to))
+    if (is_exact(flight) && flight->later && !sp_ray_search_done(&flight->search) &&
+        begin_piece(queue, flight, flight->to))
         return true;
-    if (is_exact(jet) || jet->ending || jet->search.any)
+    if (is_exact(flight) || flight->ending || flight->search.any)
         return false;
-    jet->ending = true;
-    jet->height = 0;
-    sp_bvh_fetch_corners(jets->bvh, jet->triangle);
+    flight->ending = true;
+    flight->height = 0;
+    sp_bvh_prefetch_corners(queue->bvh, flight->triangle);
     return true;
 }
 
-void sp_bvh_jets_end(sp_bvh_jets *jets, sp_bvh_jet *jet)
+void sp_parabola_queue_end(sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
-    sp_parabola_pairs *pairs = &jets->pairs;
-    if (!jets->hits) {
-        jets->occluded[jet->number] = jet->triangle != SP_NONE;
-    } else if (is_exact(jet)) {
-        jets->hits[jet->number] = jet->search.best;
+    sp_parabola_pairs *pairs = &queue->pairs;
+    if (!queue->hits) {
+        queue->occluded[flight->number] = flight->triangle != SP_NONE;
+    } else if (is_exact(flight)) {
+        queue->hits[flight->number] = flight->search.best;
     } else {
-        pairs->ray[pairs->count] = jet->number;
-        pairs->triangle[pairs->count++] = jet->triangle;
+        pairs->ray[pairs->count] = flight->number;
+        pairs->triangle[pairs->count++] = flight->triangle;
         if (pairs->count < SP_PARABOLA_HITS)
             return;
-        jets->compute(pairs, jets->hits);
+        queue->compute(pairs, queue->hits);
         pairs->count = 0;
     }
 }
 
-bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet)
+bool sp_parabola_queue_begin(sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
-    const sp_bvh_starts *s = &jets->starts;
+    const sp_bvh_starts *s = &queue->starts;
     for (;;) {
-        if (s->next == s->count && jets->aligned && jets->count - jets->next >= LEAST_TOGETHER)
-            prepare_starts(jets);
+        if (s->next == s->count && queue->aligned && queue->count - queue->next >= LEAST_TOGETHER)
+            prepare_starts(queue);
         if (s->next < s->count) {
-            if (begin_prepared(jets, jet))
+            if (begin_prepared(queue, flight))
                 return true;
-        } else if (jets->next == jets->count) {
+        } else if (queue->next == queue->count) {
             return false;
-        } else if (begin(jets, jets->order[jets->next++], jet)) {
+        } else if (begin(queue, queue->order[queue->next++], flight)) {
             return true;
         }
-        sp_bvh_jets_end(jets, jet);
+        sp_parabola_queue_end(queue, flight);
     }
 }
 
-static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = SP_KERNELS(sp_bvh_prepare_starts);
-static void (*const kernels[])(sp_bvh_jets *, sp_bvh_jet *, int) = SP_KERNELS(sp_bvh_parabolas);
+static void (*const prepares[])(const sp_parabola_queue *, sp_bvh_starts *) = SP_KERNELS(sp_bvh_prepare_starts);
+static void (*const kernels[])(sp_parabola_queue *, sp_parabola_flight *, int) = SP_KERNELS(sp_bvh_parabolas);
 static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = SP_KERNELS(sp_parabola_hits);
 
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
                             size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)
 {
-    sp_bvh_jets jets;
-    jets.bvh = jets.pairs.bvh = bvh;
-    jets.pull = jets.pairs.pull = pull;
-    jets.rays = jets.pairs.rays = rays;
-    jets.order = order;
-    jets.count = count;
-    jets.next = 0;
-    jets.hits = hits;
-    jets.occluded = occluded;
-    jets.prepare = prepares[instructions];
-    jets.compute = computes[instructions];
-    jets.aligned = bvh->node_count > 0 && sp_bvh_order_axes(pull, jets.axis);
-    jets.starts.count = jets.starts.next = jets.pairs.count = 0;
-    sp_bvh_jet flights[SP_BVH_JETS];
-    kernels[instructions](&jets, flights, SP_BVH_JETS);
-    if (jets.pairs.count)
-        jets.compute(&jets.pairs, hits);
+    sp_parabola_queue queue;
+    queue.bvh = queue.pairs.bvh = bvh;
+    queue.pull = queue.pairs.pull = pull;
+    queue.rays = queue.pairs.rays = rays;
+    queue.order = order;
+    queue.count = count;
+    queue.next = 0;
+    queue.hits = hits;
+    queue.occluded = occluded;
+    queue.prepare = prepares[instructions];
+    queue.compute = computes[instructions];
+    queue.aligned = bvh->node_count > 0 && sp_bvh_order_axes(pull, queue.axis);
+    queue.starts.count = queue.starts.next = queue.pairs.count = 0;
+    sp_parabola_flight flights[SP_PARABOLA_FLIGHTS];
+    kernels[instructions](&queue, flights, SP_PARABOLA_FLIGHTS);
+    if (queue.pairs.count)
+        queue.compute(&queue.pairs, hits);
 }

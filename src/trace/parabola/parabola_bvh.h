@@ -46,7 +46,7 @@ typedef struct {
     uint32_t number;   /* which ray it is */
     uint32_t triangle; /* the best so far: as the search says, or surely hit later than way `low` and before arc.last */
     float low;
-    bool ending;         /* what is needed for the answer has been sent for */
+    bool ending;         /* what is needed for the answer has been prefetched */
     bool parabola_ready; /* it is needed only where single precision does not decide */
     bool course_ready;   /* it is needed only for later pieces */
     bool later;          /* there is more of the flight after this piece, */
@@ -58,18 +58,18 @@ typedef struct {
     int height;
     uint32_t child[SP_BVH_STACK + SP_BVH_WIDTH];
     float from[SP_BVH_STACK + SP_BVH_WIDTH], until[SP_BVH_STACK + SP_BVH_WIDTH]; /* when it may be in its box, ways */
-} sp_bvh_jet;
+} sp_parabola_flight;
 
 /* The pieces with which flights begin, made ready many at a time, where gravity is along an axis: what
- * sp_bvh_jet_prepare and sp_bvh_arc_prepare make of them, to the last bit. By axis: steep one, and the others as in
- * sp_bvh_arc. */
+ * sp_parabola_flight_prepare and sp_bvh_arc_prepare make of them, to the last bit. By axis: steep one, and the others
+ * as in sp_bvh_arc. */
 enum { SP_BVH_STARTS = 16 };
 typedef struct {
     uint32_t ray[SP_BVH_STARTS]; /* its number among the rays */
     int count, next;             /* next: the first that is not yet on its way */
     int64_t fits[SP_BVH_STARTS]; /* sp_bvh_fitness; SP_BVH_FAR for all that is not usual */
     int64_t later[SP_BVH_STARTS];
-    double to[SP_BVH_STARTS], end[SP_BVH_STARTS]; /* sp_bvh_jet.to and .last */
+    double to[SP_BVH_STARTS], end[SP_BVH_STARTS]; /* sp_parabola_flight.to and .last */
     double start[SP_BVH_STARTS], rate[SP_BVH_STARTS];
     float origin[3][SP_BVH_STARTS], direction[3][SP_BVH_STARTS], inverse[3][SP_BVH_STARTS];
     float bend[SP_BVH_STARTS], sooner[SP_BVH_STARTS], behind[SP_BVH_STARTS]; /* behind: sp_bvh_arc.later */
@@ -78,11 +78,11 @@ typedef struct {
 } sp_bvh_starts;
 
 /* So many flights are on their way at once, each a step at a time. */
-enum { SP_BVH_JETS = 8 };
+enum { SP_PARABOLA_FLIGHTS = 8 };
 
 /* Rays to be traced, and where their answers go: hits, or occluded where that is NULL. */
-typedef struct sp_bvh_jets sp_bvh_jets;
-struct sp_bvh_jets {
+typedef struct sp_parabola_queue sp_parabola_queue;
+struct sp_parabola_queue {
     const sp_bvh *bvh;
     const sp_pull *pull;
     const sp_ray *rays;
@@ -93,7 +93,7 @@ struct sp_bvh_jets {
     int axis[3]; /* as in sp_bvh_arc */
     bool aligned;
     sp_bvh_starts starts;
-    void (*prepare)(const sp_bvh_jets *, sp_bvh_starts *);
+    void (*prepare)(const sp_parabola_queue *, sp_bvh_starts *);
     void (*compute)(const sp_parabola_pairs *, sp_hit *);
     sp_parabola_pairs pairs; /* hits to be computed */
 };
@@ -103,13 +103,13 @@ void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, con
                             size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded);
 
 /* Lets the next flight begin that has to; false where there is none. */
-bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet);
+bool sp_parabola_queue_begin(sp_parabola_queue *queue, sp_parabola_flight *flight);
 /* Called where nothing of this piece is left to visit. False where the flight is at its end. */
-bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet);
+bool sp_parabola_flight_go_on(const sp_parabola_queue *queue, sp_parabola_flight *flight);
 /* Answers for a flight that is at its end. */
-void sp_bvh_jets_end(sp_bvh_jets *jets, sp_bvh_jet *jet);
+void sp_parabola_queue_end(sp_parabola_queue *queue, sp_parabola_flight *flight);
 /* Asks double precision about a triangle and the best so far. */
-void sp_bvh_jet_settle(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle);
+void sp_parabola_flight_settle(const sp_parabola_queue *queue, sp_parabola_flight *flight, uint32_t triangle);
 
 typedef enum {
     SP_BVH_NOWHERE, /* the flight is nowhere in the box */
@@ -120,20 +120,21 @@ typedef enum {
 /* The axes in order, gravity's largest component first. True where gravity is along that alone. */
 bool sp_bvh_order_axes(const sp_pull *pull, int axis[3]);
 /* Makes the flight ready and cuts from..to (s) to the box along the axes without gravity. */
-sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh_jet *jet, double *from, double *to);
+sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_parabola_flight *flight,
+                                          double *from, double *to);
 /* Makes the piece of it from `from` to `to` ready, on which no coordinate turns, and cuts it to the box. */
-sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to);
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_parabola_flight *flight, double from, double to);
 
 /* Makes number i of the starts an arc. */
-void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc);
+void sp_bvh_start_take(const sp_parabola_queue *queue, int i, sp_bvh_arc *arc);
 
 /* Fills the starts in, whose rays are noted; one for each set of instructions. */
-void sp_bvh_prepare_starts_portable(const sp_bvh_jets *jets, sp_bvh_starts *starts);
-void sp_bvh_prepare_starts_avx2(const sp_bvh_jets *jets, sp_bvh_starts *starts);
-void sp_bvh_prepare_starts_avx512(const sp_bvh_jets *jets, sp_bvh_starts *starts);
+void sp_bvh_prepare_starts_portable(const sp_parabola_queue *queue, sp_bvh_starts *starts);
+void sp_bvh_prepare_starts_avx2(const sp_parabola_queue *queue, sp_bvh_starts *starts);
+void sp_bvh_prepare_starts_avx512(const sp_parabola_queue *queue, sp_bvh_starts *starts);
 /* The kernel, likewise: all rays, flights being room for so many at once. */
-void sp_bvh_parabolas_portable(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
-void sp_bvh_parabolas_avx2(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
-void sp_bvh_parabolas_avx512(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
+void sp_bvh_parabolas_portable(sp_parabola_queue *queue, sp_parabola_flight *flights, int most);
+void sp_bvh_parabolas_avx2(sp_parabola_queue *queue, sp_parabola_flight *flights, int most);
+void sp_bvh_parabolas_avx512(sp_parabola_queue *queue, sp_parabola_flight *flights, int most);
 
 #endif

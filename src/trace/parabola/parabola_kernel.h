@@ -125,7 +125,7 @@ typedef struct {
 static inline void test_block(const sp_bvh_block *block, const chord *c, verdict *found)
 {
     sheared seen = shear_block(block, c->along);
-    weighed w = weigh_sheared(&seen, c->blur);
+    barycentric w = barycentric_sheared(&seen, c->blur);
     found->maybe = found->surely = 0;
     if (!w.inside)
         return;
@@ -147,51 +147,52 @@ static inline void test_block(const sp_bvh_block *block, const chord *c, verdict
 }
 
 /* Takes a hit that is sure in single precision, or asks double precision. True where the search is over. */
-static inline bool take(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle, bool sure, float low, float high)
+static inline bool take(const sp_parabola_queue *queue, sp_parabola_flight *flight, uint32_t triangle, bool sure,
+                        float low, float high)
 {
-    sp_bvh_arc *arc = &jet->arc;
-    if (triangle == jet->search.skip || (sure && low > arc->last))
+    sp_bvh_arc *arc = &flight->arc;
+    if (triangle == flight->search.skip || (sure && low > arc->last))
         return false;
-    if (!sure || low < arc->surely_first || high > arc->surely_last || (high >= jet->low && !jet->search.any)) {
-        sp_bvh_jet_settle(jets, jet, triangle);
+    if (!sure || low < arc->surely_first || high > arc->surely_last || (high >= flight->low && !flight->search.any)) {
+        sp_parabola_flight_settle(queue, flight, triangle);
     } else {
-        jet->triangle = triangle;
-        jet->low = low;
+        flight->triangle = triangle;
+        flight->low = low;
         arc->last = high;
-        __builtin_prefetch(&jets->bvh->mesh->triangles[triangle]);
+        __builtin_prefetch(&queue->bvh->mesh->triangles[triangle]);
     }
-    return jet->search.any && jet->triangle != SP_NONE;
+    return flight->search.any && flight->triangle != SP_NONE;
 }
 
 /* True where the search is over. */
-static inline bool search_block(const sp_bvh_jets *jets, sp_bvh_jet *jet, const sp_bvh_block *block, float from,
-                                float until)
+static inline bool search_block(const sp_parabola_queue *queue, sp_parabola_flight *flight, const sp_bvh_block *block,
+                                float from, float until)
 {
-    chord c = chord_of(&jet->arc, from, until);
+    chord c = chord_of(&flight->arc, from, until);
     verdict found;
     test_block(block, &c, &found);
     for (uint32_t rest = found.maybe; rest; rest &= rest - 1) {
         int i = __builtin_ctz(rest);
-        if (take(jets, jet, block->triangle[i], found.surely >> i & 1, found.low[i], found.high[i]))
+        if (take(queue, flight, block->triangle[i], found.surely >> i & 1, found.low[i], found.high[i]))
             return true;
     }
     return false;
 }
 
 /* Visits what is on top of the stack; false where the flight is at its end. */
-static inline bool step(const sp_bvh_jets *jets, sp_bvh_jet *jet)
+static inline bool step(const sp_parabola_queue *queue, sp_parabola_flight *flight)
 {
-    const sp_bvh *bvh = jets->bvh;
-    const sp_bvh_arc *arc = &jet->arc;
-    int height = jet->height;
+    const sp_bvh *bvh = queue->bvh;
+    const sp_bvh_arc *arc = &flight->arc;
+    int height = flight->height;
     float last = arc->last;
     do
         if (--height < 0)
-            return sp_bvh_jet_go_on(jets, jet);
-    while (jet->from[height] > last);
-    uint32_t child = jet->child[height];
+            return sp_parabola_flight_go_on(queue, flight);
+    while (flight->from[height] > last);
+    uint32_t child = flight->child[height];
     if (child & SP_BVH_LEAF) {
-        if (search_block(jets, jet, &bvh->blocks[child - SP_BVH_LEAF], jet->from[height], jet->until[height]))
+        if (search_block(queue, flight, &bvh->blocks[child - SP_BVH_LEAF], flight->from[height], flight->until[height]))
             return false;
     } else {
         const sp_bvh_node *node = &bvh->nodes[child];
@@ -203,29 +204,29 @@ static inline bool step(const sp_bvh_jets *jets, sp_bvh_jet *jet)
         uint64_t order = wide_order(node->order[arc->diagonal >> 1]);
         if (arc->diagonal & 1)
             order = __builtin_bswap64(order);
-        height += wide_pack_spans(node->child, from, until, order, jet->child + height, jet->from + height,
-                                  jet->until + height);
+        height += wide_pack_spans(node->child, from, until, order, flight->child + height, flight->from + height,
+                                  flight->until + height);
     }
-    jet->height = height;
+    flight->height = height;
     if (height > 0)
-        sp_bvh_fetch(bvh, jet->child[height - 1]);
+        sp_bvh_prefetch(bvh, flight->child[height - 1]);
     return true;
 }
 
-void SP_KERNEL(sp_bvh_parabolas)(sp_bvh_jets *jets, sp_bvh_jet *flights, int most)
+void SP_KERNEL(sp_bvh_parabolas)(sp_parabola_queue *queue, sp_parabola_flight *flights, int most)
 {
-    sp_bvh_jet *active[SP_BVH_JETS];
+    sp_parabola_flight *active[SP_PARABOLA_FLIGHTS];
     int count = 0;
-    while (count < most && sp_bvh_jets_begin(jets, &flights[count])) {
+    while (count < most && sp_parabola_queue_begin(queue, &flights[count])) {
         active[count] = &flights[count];
         count++;
     }
     while (count > 0) {
         for (int i = 0; i < count; i++) {
-            if (step(jets, active[i]))
+            if (step(queue, active[i]))
                 continue;
-            sp_bvh_jets_end(jets, active[i]);
-            if (!sp_bvh_jets_begin(jets, active[i]))
+            sp_parabola_queue_end(queue, active[i]);
+            if (!sp_parabola_queue_begin(queue, active[i]))
                 active[i--] = active[--count];
         }
     }

@@ -1,6 +1,6 @@
-/* sp_bvh_jet_prepare and sp_bvh_arc_prepare, many flights at once, where gravity is along an axis. Included once by
- * each file that is compiled for a set of instructions, with SP_KERNEL(name) naming its functions. A compiler sees
- * vectors in these loops. */
+/* sp_parabola_flight_prepare and sp_bvh_arc_prepare, many flights at once, where gravity is along an axis. Included
+ * once by each file that is compiled for a set of instructions, with SP_KERNEL(name) naming its functions. A compiler
+ * sees vectors in these loops. */
 #include "trace/parabola/parabola_bvh.h"
 
 typedef struct {
@@ -9,12 +9,12 @@ typedef struct {
     double enter[SP_BVH_STARTS], leave[SP_BVH_STARTS]; /* when the steep coordinate passes the limits */
 } start_lanes;
 
-static void gather_starts(const sp_bvh_jets *jets, const sp_bvh_starts *s, start_lanes *lanes)
+static void gather_starts(const sp_parabola_queue *queue, const sp_bvh_starts *s, start_lanes *lanes)
 {
-    const double *centre = jets->bvh->centre, scale = jets->bvh->scale;
-    const int *axis = jets->axis;
+    const double *centre = queue->bvh->centre, scale = queue->bvh->scale;
+    const int *axis = queue->axis;
     for (int i = 0; i < s->count; i++) {
-        const sp_ray *ray = &jets->rays[s->ray[i]];
+        const sp_ray *ray = &queue->rays[s->ray[i]];
         double origin[3], velocity[3];
         sp_to_array(ray->origin, origin);
         sp_to_array(ray->velocity, velocity);
@@ -70,10 +70,10 @@ static inline void time_limits(start_lanes *lanes, double pull, int count)
 }
 
 /* cut_curved, and whether the pieces are such as sp_bvh_arc_prepare takes. */
-static inline void cut_curved_lanes(const sp_bvh_jets *jets, start_lanes *lanes, double pull, sp_bvh_starts *s,
+static inline void cut_curved_lanes(const sp_parabola_queue *queue, start_lanes *lanes, double pull, sp_bvh_starts *s,
                                     int count)
 {
-    double strength = jets->pull->strength * jets->bvh->scale;
+    double strength = queue->pull->strength * queue->bvh->scale;
     for (int i = 0; i < count; i++) {
         double place0 = lanes->place[0][i], place1 = lanes->place[1][i], place2 = lanes->place[2][i];
         double speed0 = lanes->speed[0][i], speed1 = lanes->speed[1][i], speed2 = lanes->speed[2][i];
@@ -143,15 +143,15 @@ static inline void fill_starts(const start_lanes *lanes, const double span[SP_BV
         }
 }
 
-void SP_KERNEL(sp_bvh_prepare_starts)(const sp_bvh_jets *jets, sp_bvh_starts *starts)
+void SP_KERNEL(sp_bvh_prepare_starts)(const sp_parabola_queue *queue, sp_bvh_starts *starts)
 {
     start_lanes lanes = {0};
-    double pull = jets->pull->vector[jets->axis[0]] * jets->bvh->scale, span[SP_BVH_STARTS];
+    double pull = queue->pull->vector[queue->axis[0]] * queue->bvh->scale, span[SP_BVH_STARTS];
     int count = (starts->count + 7) / 8 * 8;
-    gather_starts(jets, starts, &lanes);
+    gather_starts(queue, starts, &lanes);
     cut_straight_lanes(&lanes, pull, starts, count);
     time_limits(&lanes, pull, count);
-    cut_curved_lanes(jets, &lanes, pull, starts, count);
+    cut_curved_lanes(queue, &lanes, pull, starts, count);
     for (int i = 0; i < count; i++)
         starts->rate[i] = sp_bvh_power_above(starts->rate[i], &span[i]);
     fill_starts(&lanes, span, pull, starts, count);

@@ -1,5 +1,5 @@
 #include "trace/ray/line.h"
-#include "trace/ray/weigh.h"
+#include "trace/ray/barycentric.h"
 
 bool sp_line_start(sp_line *line, const sp_ray *ray)
 {
@@ -27,7 +27,7 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
         x[i] = corners[i][line->x] - line->origin[line->x] - line->shear_x * z[i];
         y[i] = corners[i][line->y] - line->origin[line->y] - line->shear_y * z[i];
     }
-    if (!sp_weigh(x, y, weights))
+    if (!sp_barycentric(x, y, weights))
         return;
     double sum = weights[0] + weights[1] + weights[2];
     double t = (weights[0] * z[0] + weights[1] * z[1] + weights[2] * z[2]) / sum * line->inverse_z;

@@ -23,7 +23,7 @@
  * do not: the time is then found from the depth. When the flight is within 2^-42 of its reach of one vertical line, it
  * is taken to be on it, and the decision is the line's. */
 #include "trace/ray/parabola.h"
-#include "trace/ray/weigh.h"
+#include "trace/ray/barycentric.h"
 
 static inline double dot(const double a[3], const double b[3])
 {
@@ -258,7 +258,7 @@ static void cut(const sp_parabola *p, const view *v, unsigned positive, uint32_t
 static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_ray_search *search)
 {
     double weights[3], roots[2];
-    if (!sp_weigh(v->time, v->beside, weights))
+    if (!sp_barycentric(v->time, v->beside, weights))
         return;
     double sum = weights[0] + weights[1] + weights[2];
     double depth = (weights[0] * v->depth[0] + weights[1] * v->depth[1] + weights[2] * v->depth[2]) / sum;

@@ -1,0 +1,486 @@
+#include "refine/smooth_objective.h"
+
+#include "ceres/least_squares.h"
+#include "refine/smooth_film.h"
+#include "scoring/footprints.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ITERATIONS 8
+#define TOLERANCE 1e-6
+#define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
+#define WATER_PENALTY 10.0 /* beside the root of the share that is dry, per share of water above the budget */
+#define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
+#define SURE 16.0          /* widths above the threshold where nothing is missing any more */
+
+typedef struct {
+    const sp_pose_parameters *parameters;
+    const sp_sight *sight;
+    size_t first; /* of its unknowns */
+    sp_smooth_arrivals arrivals;
+} sp_smooth_nozzle;
+
+/* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
+typedef struct {
+    uint32_t nozzle, arrival;
+} sp_link;
+
+typedef struct {
+    const sp_search *search;
+    sp_width width;
+    double budget;
+    size_t nozzle_count, unknowns;
+    sp_smooth_nozzle *nozzles;
+    size_t *start; /* [patch_count + 1] */
+    sp_link *links;
+    sp_smooth_film film;                                /* of no nozzles where film is not asked for */
+    double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
+    sp_error *error; /* of the solver, which does not know why residuals are missing: what is told first stays */
+} sp_smooth_objective;
+
+/* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
+ * telling Ceres, which searches long where bounds are many. */
+static void values_at(const sp_smooth_nozzle *own, const double *x, double values[SP_UNKNOWNS])
+{
+    const sp_pose_parameters *parameters = own->parameters;
+    for (size_t k = 0; k < parameters->count; k++) {
+        double half = 0.5 * (parameters->high[k] - parameters->low[k]);
+        values[k] = parameters->low[k] + half + half * sin(x[own->first + k]);
+    }
+}
+
+/* The smooth arrivals at x and, where asked for, their derivatives by x. */
+static void set_arrivals(sp_smooth_objective *smooth, const double *x, bool slopes)
+{
+    int threads = sp_threads(&smooth->search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        sp_smooth_nozzle *own = &smooth->nozzles[i];
+        const sp_pose_parameters *parameters = own->parameters;
+        double values[SP_UNKNOWNS];
+        values_at(own, x, values);
+        double chain[SP_UNKNOWNS];
+        sp_brought brought = {0};
+        if (smooth->film.count)
+            brought =
+                (sp_brought){smooth->film.runs[i].brought.amount, slopes ? smooth->film.runs[i].brought.slope : NULL};
+        sp_smooth_arrivals arrivals = own->arrivals;
+        if (!slopes)
+            arrivals.alone_slope = arrivals.flux_slope = NULL;
+        sp_smooth_arrivals_set(smooth->search, parameters, own->sight, smooth->width, values, &arrivals,
+                               smooth->film.count ? &brought : NULL);
+        for (size_t k = 0; slopes && k < parameters->count; k++) {
+            chain[k] = 0.5 * (parameters->high[k] - parameters->low[k]) * cos(x[own->first + k]);
+            for (size_t a = k * own->sight->count; a < (k + 1) * own->sight->count; a++) {
+                arrivals.alone_slope[a] *= chain[k];
+                arrivals.flux_slope[a] *= chain[k];
+            }
+        }
+        if (smooth->film.count)
+            sp_smooth_film_set(&smooth->film, i, slopes ? chain : NULL);
+    }
+}
+
+/* What is missing at a patch: the product of what each nozzle alone, all hits together, and films leave dry. */
+typedef struct {
+    double weight;   /* root of the patch's area, as a share of all: the solver's tolerances are absolute, and must not
+                      * know the unit of length */
+    double alone;    /* what no nozzle covers alone */
+    double together; /* what all hits together do not cover; 1 where they do not add up */
+    double film;     /* 1 where it is not asked for */
+    double by_flux;  /* how `together` changes per flux */
+    double by_film;  /* how `film` changes per film of all nozzles */
+} sp_smooth_miss;
+
+/* The link behind the last of the same nozzle's at a patch. */
+static size_t end_of_group(const sp_smooth_objective *smooth, size_t patch, size_t first)
+{
+    size_t end = first + 1;
+    while (end < smooth->start[patch + 1] && smooth->links[end].nozzle == smooth->links[first].nozzle)
+        end++;
+    return end;
+}
+
+/* The share of a patch that a nozzle's arrivals leave dry, links `first` to before `end`. */
+static double left_dry(const sp_smooth_objective *smooth, size_t first, size_t end)
+{
+    double cover = 0;
+    for (size_t l = first; l < end; l++)
+        cover += smooth->nozzles[smooth->links[l].nozzle].arrivals.alone[smooth->links[l].arrival];
+    return cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
+}
+
+static void miss_of_hits(const sp_smooth_objective *smooth, size_t patch, sp_smooth_miss *at)
+{
+    const sp_search *search = smooth->search;
+    double sum = (double)search->kept_hit[patch];
+    at->together = 1;
+    at->alone = sum >= 1 ? 0 : (double)search->kept_dry[patch];
+    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
+        end = end_of_group(smooth, patch, l);
+        at->alone *= left_dry(smooth, l, end);
+        for (size_t k = l; k < end; k++)
+            sum += smooth->nozzles[smooth->links[k].nozzle].arrivals.flux[smooth->links[k].arrival];
+    }
+    if (search->single || search->threshold <= 0 || sum <= 0)
+        return;
+    double widths = log(sum) / smooth->width.coverage;
+    if (widths < -SURE)
+        return;
+    double cover = widths > SURE ? 1 : sp_smooth_step(widths);
+    at->together = 1 - cover;
+    at->by_flux = -cover * (1 - cover) / (smooth->width.coverage * sum);
+}
+
+/* What all but this nozzle leave dry alone. */
+static double alone_but(const sp_smooth_objective *smooth, size_t patch, uint32_t nozzle)
+{
+    double miss = smooth->search->kept_hit[patch] >= 1 ? 0 : (double)smooth->search->kept_dry[patch];
+    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
+        end = end_of_group(smooth, patch, l);
+        if (smooth->links[l].nozzle != nozzle)
+            miss *= left_dry(smooth, l, end);
+    }
+    return miss;
+}
+
+/* A patch's row of the Jacobian in the making, all zero but for the columns that are listed. */
+typedef struct {
+    double *row;
+    size_t *columns, used;
+} sp_smooth_row;
+
+static void add_slope(sp_smooth_row *row, size_t column, double slope)
+{
+    if (slope == 0)
+        return;
+    if (row->row[column] == 0)
+        row->columns[row->used++] = column;
+    row->row[column] += slope;
+}
+
+/* Adds what the films' slopes make of the miss, `by_film` that of all films together. */
+static void add_film(const sp_smooth_objective *smooth, size_t patch, double by_film, sp_smooth_row *row)
+{
+    for (size_t i = 0; by_film != 0 && i < smooth->film.count; i++) {
+        const sp_smooth_runoff *runs = &smooth->film.runs[i];
+        for (size_t k = 0; k < runs->parameters->count; k++)
+            add_slope(row, runs->first + k, by_film * (double)runs->slope[k * smooth->search->patch_count + patch]);
+    }
+}
+
+/* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
+static void add_row(const sp_smooth_objective *smooth, size_t patch, const sp_smooth_miss *at, double *row,
+                    size_t *columns, double *gradient, double *normal)
+{
+    size_t n = smooth->unknowns;
+    sp_smooth_row own_row = {row, columns, 0};
+    double weight = at->weight, miss = at->alone * at->together * at->film;
+    for (size_t l = smooth->start[patch]; l < smooth->start[patch + 1]; l++) {
+        const sp_smooth_nozzle *own = &smooth->nozzles[smooth->links[l].nozzle];
+        size_t arrival = smooth->links[l].arrival;
+        if (own->arrivals.alone[arrival] <= 0 && own->arrivals.flux[arrival] <= 0)
+            continue;
+        double by_alone = -weight * at->together * at->film * alone_but(smooth, patch, smooth->links[l].nozzle);
+        double by_flux = weight * at->alone * at->film * at->by_flux;
+        for (size_t k = 0; k < own->parameters->count; k++) {
+            size_t slope = k * own->sight->count + arrival;
+            add_slope(&own_row, own->first + k,
+                      by_alone * own->arrivals.alone_slope[slope] + by_flux * own->arrivals.flux_slope[slope]);
+        }
+    }
+    add_film(smooth, patch, weight * at->alone * at->together * at->by_film, &own_row);
+    size_t used = own_row.used;
+    for (size_t i = 0; i < used; i++) {
+        gradient[columns[i]] += row[columns[i]] * weight * miss;
+        for (size_t j = 0; j < used; j++)
+            if (columns[j] <= columns[i])
+                normal[columns[i] * n + columns[j]] += row[columns[i]] * row[columns[j]];
+    }
+    for (size_t i = 0; i < used; i++)
+        row[columns[i]] = 0;
+}
+
+static sp_smooth_miss miss_at(const sp_smooth_objective *smooth, size_t patch)
+{
+    sp_smooth_miss at = {.weight = sqrt((double)smooth->search->area[patch]), .film = 1};
+    miss_of_hits(smooth, patch, &at);
+    if (!smooth->film.count)
+        return at;
+    at.film = 1 - sp_smooth_film_cover(&smooth->film, patch, &at.by_film);
+    at.by_film = -at.by_film;
+    return at;
+}
+
+/* Sums one chunk of the patches. `row` (all zero) and `columns` are the chunk's own scratch. */
+static void sum_chunk(sp_smooth_objective *smooth, size_t chunk, bool slopes, double *row, size_t *columns)
+{
+    size_t n = smooth->unknowns, patches = smooth->search->patch_count;
+    double *gradient = &smooth->chunk_gradient[chunk * n], *normal = &smooth->chunk_normal[chunk * n * n], cost = 0;
+    if (slopes) {
+        memset(gradient, 0, n * sizeof *gradient);
+        memset(normal, 0, n * n * sizeof *normal);
+    }
+    for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
+        if ((smooth->start[p] == smooth->start[p + 1] && !smooth->film.count) || smooth->search->area[p] <= 0)
+            continue;
+        sp_smooth_miss at = miss_at(smooth, p);
+        double miss = at.alone * at.together * at.film;
+        cost += at.weight * at.weight * miss * miss;
+        if (slopes && miss > 0)
+            add_row(smooth, p, &at, row, columns, gradient, normal);
+    }
+    smooth->chunk_cost[chunk] = cost;
+}
+
+static bool sum_patches(sp_smooth_objective *smooth, bool slopes)
+{
+    size_t n = smooth->unknowns;
+    double *rows = calloc(CHUNKS * n, sizeof *rows);
+    size_t *columns = malloc(CHUNKS * n * sizeof *columns);
+    int threads = sp_threads(&smooth->search->options->run);
+    if (rows && columns) {
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t chunk = 0; chunk < CHUNKS; chunk++)
+            sum_chunk(smooth, chunk, slopes, &rows[chunk * n], &columns[chunk * n]);
+        for (size_t chunk = 1; chunk < CHUNKS; chunk++) {
+            smooth->chunk_cost[0] += smooth->chunk_cost[chunk];
+            for (size_t i = 0; slopes && i < n; i++)
+                smooth->chunk_gradient[i] += smooth->chunk_gradient[chunk * n + i];
+            for (size_t i = 0; slopes && i < n * n; i++)
+                smooth->chunk_normal[i] += smooth->chunk_normal[chunk * n * n + i];
+        }
+    }
+    bool done = rows && columns;
+    free(rows);
+    free(columns);
+    return done;
+}
+
+/* Water above the budget as one more residual. */
+static void add_water(sp_smooth_objective *smooth, const double *x, bool slopes)
+{
+    size_t n = smooth->unknowns;
+    double flow = smooth->search->kept_flow;
+    double *row = smooth->chunk_gradient + n; /* chunk 1's, summed up already */
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        const sp_smooth_nozzle *own = &smooth->nozzles[i];
+        double values[SP_UNKNOWNS];
+        values_at(own, x, values);
+        sp_nozzle nozzle = sp_pose_parameters_nozzle(own->parameters, values);
+        flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(smooth->search->coarse)->liquid);
+        for (size_t k = 0; k < own->parameters->count; k++) {
+            double half = 0.5 * (own->parameters->high[k] - own->parameters->low[k]);
+            row[own->first + k] = own->parameters->kind[k] == SP_UNKNOWN_FLOW
+                                      ? WATER_PENALTY * half * cos(x[own->first + k]) / smooth->budget
+                                      : 0;
+        }
+    }
+    double over = WATER_PENALTY * (flow / smooth->budget - 1);
+    if (over <= 0)
+        return;
+    smooth->chunk_cost[0] += over * over;
+    for (size_t i = 0; slopes && i < n; i++) {
+        smooth->chunk_gradient[i] += over * row[i];
+        for (size_t j = 0; j <= i; j++)
+            smooth->chunk_normal[i * n + j] += row[i] * row[j];
+    }
+}
+
+/* The lower triangle of `a` [n x n] becomes L with L Lᵀ = a (Cholesky). */
+static bool factorise(double *a, size_t n)
+{
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = 0; k < j; k++)
+            for (size_t i = j; i < n; i++)
+                a[i * n + j] -= a[i * n + k] * a[j * n + k];
+        if (!(a[j * n + j] > 0) || !isfinite(a[j * n + j]))
+            return false;
+        double scale = 1 / sqrt(a[j * n + j]);
+        for (size_t i = j; i < n; i++)
+            a[i * n + j] *= scale;
+    }
+    return true;
+}
+
+/* As many residuals as patches would be slow and fat. With JᵀJ = L Lᵀ the n residuals L⁻¹Jᵀr with Jacobian Lᵀ have the
+ * same gradient and normal matrix, and one more without slope makes up the cost. */
+static bool condense(sp_smooth_objective *smooth, double *residuals, double *jacobian)
+{
+    size_t n = smooth->unknowns;
+    double *normal = smooth->chunk_normal, largest = 0, explained = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, normal[i * n + i]);
+    /* an unknown that nothing depends on must not make the matrix singular */
+    for (size_t i = 0; i < n; i++)
+        normal[i * n + i] += 1e-10 * normal[i * n + i] + 1e-12 * largest + 1e-30;
+    if (!factorise(normal, n))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        residuals[i] = smooth->chunk_gradient[i];
+        for (size_t k = 0; k < i; k++)
+            residuals[i] -= normal[i * n + k] * residuals[k];
+        residuals[i] /= normal[i * n + i];
+        explained += residuals[i] * residuals[i];
+        for (size_t k = 0; k < n; k++)
+            jacobian[i * n + k] = k >= i ? normal[k * n + i] : 0;
+    }
+    residuals[n] = sqrt(fmax(0, smooth->chunk_cost[0] - explained));
+    memset(&jacobian[n * n], 0, n * sizeof *jacobian);
+    return true;
+}
+
+static bool evaluate(void *user, const double *x, double *residuals, double *jacobian)
+{
+    sp_smooth_objective *smooth = user;
+    size_t n = smooth->unknowns;
+    set_arrivals(smooth, x, jacobian != NULL);
+    if (!sum_patches(smooth, jacobian != NULL))
+        return sp_fail_memory(smooth->error);
+    add_water(smooth, x, jacobian != NULL);
+    if (!isfinite(smooth->chunk_cost[0]))
+        return false;
+    if (jacobian)
+        return condense(smooth, residuals, jacobian);
+    memset(residuals, 0, n * sizeof *residuals);
+    residuals[n] = sqrt(smooth->chunk_cost[0]);
+    return true;
+}
+
+static bool link_patches(sp_smooth_objective *smooth, sp_error *error)
+{
+    size_t patches = smooth->search->patch_count, total = 0;
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        total += smooth->nozzles[i].sight->count;
+    smooth->start = calloc(patches + 2, sizeof *smooth->start);
+    smooth->links = malloc((total ? total : 1) * sizeof *smooth->links);
+    if (!smooth->start || !smooth->links)
+        return sp_fail_memory(error);
+    /* counted two places on, so that filling moves each start to its own place */
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        for (size_t a = 0; a < smooth->nozzles[i].sight->count; a++)
+            smooth->start[smooth->nozzles[i].sight->seen[a].patch + 2]++;
+    for (size_t p = 0; p < patches; p++)
+        smooth->start[p + 2] += smooth->start[p + 1];
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        for (size_t a = 0; a < smooth->nozzles[i].sight->count; a++)
+            smooth->links[smooth->start[smooth->nozzles[i].sight->seen[a].patch + 1]++] =
+                (sp_link){(uint32_t)i, (uint32_t)a};
+    return true;
+}
+
+static bool smooth_create(sp_smooth_objective *smooth, const sp_pose_parameters *parameters,
+                          const sp_sight *const *sights, sp_error *error)
+{
+    smooth->nozzles = calloc(smooth->nozzle_count, sizeof *smooth->nozzles);
+    if (!smooth->nozzles)
+        return sp_fail_memory(error);
+    size_t first = 0;
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        size_t most = sights[i]->count ? sights[i]->count : 1;
+        smooth->nozzles[i] = (sp_smooth_nozzle){.parameters = &parameters[i], .sight = sights[i], .first = first};
+        first += parameters[i].count;
+        sp_smooth_arrivals *arrivals = &smooth->nozzles[i].arrivals;
+        double *numbers = malloc(2 * most * (1 + SP_UNKNOWNS) * sizeof *numbers);
+        if (!numbers)
+            return sp_fail_memory(error);
+        *arrivals = (sp_smooth_arrivals){numbers, numbers + most, numbers + most * (1 + SP_UNKNOWNS),
+                                         numbers + most * (2 + SP_UNKNOWNS)};
+    }
+    size_t n = smooth->unknowns;
+    smooth->chunk_cost = calloc(CHUNKS, sizeof *smooth->chunk_cost);
+    smooth->chunk_gradient = calloc(CHUNKS * n, sizeof *smooth->chunk_gradient);
+    smooth->chunk_normal = calloc(CHUNKS * n, n * sizeof *smooth->chunk_normal);
+    if (!smooth->chunk_cost || !smooth->chunk_gradient || !smooth->chunk_normal)
+        return sp_fail_memory(error);
+    return link_patches(smooth, error);
+}
+
+static void smooth_free(sp_smooth_objective *smooth)
+{
+    for (size_t i = 0; smooth->nozzles && i < smooth->nozzle_count; i++)
+        free(smooth->nozzles[i].arrivals.alone);
+    free(smooth->nozzles);
+    sp_smooth_film_free(&smooth->film);
+    free(smooth->start);
+    free(smooth->links);
+    free(smooth->chunk_cost);
+    free(smooth->chunk_gradient);
+    free(smooth->chunk_normal);
+}
+
+static bool solve(sp_smooth_objective *smooth, double (*values)[SP_UNKNOWNS], sp_error *error)
+{
+    double *x = malloc(smooth->unknowns * sizeof *x);
+    if (!x)
+        return sp_fail_memory(error);
+    const double most = acos(EDGE_LEAST);
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        const sp_pose_parameters *parameters = smooth->nozzles[i].parameters;
+        for (size_t k = 0; k < parameters->count; k++) {
+            double half = 0.5 * (parameters->high[k] - parameters->low[k]);
+            double angle = asin(fmin(1, fmax(-1, (parameters->value[k] - parameters->low[k] - half) / half)));
+            x[smooth->nozzles[i].first + k] = fmin(most, fmax(-most, angle));
+        }
+    }
+    sp_least_squares problem = {.unknowns = smooth->unknowns,
+                                .residuals = smooth->unknowns + 1,
+                                .function = evaluate,
+                                .user = smooth,
+                                .iterations = ITERATIONS,
+                                .tolerance = TOLERANCE};
+    smooth->error = error;
+    bool done = sp_least_squares_solve(&problem, x, NULL, error);
+    for (size_t i = 0; done && i < smooth->nozzle_count; i++)
+        values_at(&smooth->nozzles[i], x, values[i]);
+    free(x);
+    return done;
+}
+
+/* The nozzles that keep their fields, as though every layout contained them, but for their water. */
+static bool hold(const sp_search *search, const sp_partial *partial, sp_search *held, sp_error *error)
+{
+    size_t bytes = (search->patch_count + 1) * sizeof(float), count = search->patch_count;
+    *held = *search;
+    held->kept_hit = malloc(bytes);
+    held->kept_dry = malloc(bytes);
+    held->kept_film = search->kept_film ? malloc(bytes) : NULL;
+    if (!held->kept_hit || !held->kept_dry || (search->kept_film && !held->kept_film))
+        return sp_fail_memory(error);
+    memcpy(held->kept_hit, search->kept_hit, count * sizeof(float));
+    memcpy(held->kept_dry, search->kept_dry, count * sizeof(float));
+    if (held->kept_film)
+        memcpy(held->kept_film, search->kept_film, count * sizeof(float));
+    for (size_t i = 0; i < partial->count; i++)
+        if (!sp_type_is_uniform(partial->items[i].nozzle.type))
+            sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), held->kept_hit,
+                              held->kept_film, held->kept_dry);
+    return true;
+}
+
+static void let_go(sp_search *held)
+{
+    free(held->kept_hit);
+    free(held->kept_dry);
+    free(held->kept_film);
+}
+
+bool sp_smooth_objective_minimise(const sp_search *search, const sp_partial *partial,
+                                  const sp_pose_parameters *parameters, const sp_sight *const *sights, sp_width width,
+                                  double budget, double (*values)[SP_UNKNOWNS], sp_error *error)
+{
+    sp_search held;
+    sp_smooth_objective smooth = {.search = &held, .width = width, .budget = budget, .nozzle_count = partial->count};
+    for (size_t i = 0; i < partial->count; i++)
+        smooth.unknowns += parameters[i].count;
+    if (!smooth.unknowns)
+        return true;
+    bool done = hold(search, partial, &held, error) && smooth_create(&smooth, parameters, sights, error) &&
+                (!search->runoffs || sp_smooth_film_create(&held, parameters, sights, partial->count, width.coverage,
+                                                           &smooth.film, error)) &&
+                solve(&smooth, values, error);
+    smooth_free(&smooth);
+    let_go(&held);
+    return done;
+}

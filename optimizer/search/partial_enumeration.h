@@ -1,0 +1,17 @@
+/* Partial enumeration: greedy orders after one first nozzle of many, or two, and what becomes of the best of them.
+ * Greedy by gain per water alone may be far off; that every first nozzle, or every two, have their turn is what bounds
+ * are proved for, where one nozzle alone must cover (Sviridenko, Operations Research Letters 32, 2004; Feldman, Nutov
+ * and Shoham, Practical budgeted submodular maximization, Algorithmica 85, 2023). Here those have that promise most. */
+#ifndef OPTIMIZER_PARTIAL_ENUMERATION_H
+#define OPTIMIZER_PARTIAL_ENUMERATION_H
+
+#include "search/lineup.h"
+
+/* For each outlay (m³/s) the best lineup found in the coverage matrix; lineups[count] are created by it, and freed by
+ * the caller. What is found does not depend on the number of threads. */
+bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budgets, size_t count,
+                            sp_deadline *deadline, sp_lineup *lineups, sp_error *error);
+/* The lineup as a partial layout. */
+bool sp_lineup_partial(const sp_lineup *lineup, sp_partial *partial, sp_error *error);
+
+#endif

@@ -1,0 +1,2 @@
+#define SP_KERNEL(name) name##_avx512
+#include "trace/line/line_packet_kernel.h"

@@ -1,2 +1,0 @@
-#define SP_KERNEL(name) name##_avx512
-#include "trace/parabola/volley_kernel.h"
