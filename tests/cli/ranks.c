@@ -166,7 +166,7 @@ static void all_end_at_the_time_limit(void **state)
 {
     (void)state;
     skip_without_mpi();
-    write_long_scene("long.yaml", "", "40 mm");
+    write_long_scene("long.yaml", "", "60 mm");
     int status = run_in(".", MPIRUN "-n 3 " PLACE "long.yaml --time-limit 3 --quiet -o limited");
     assert_true(status == 0 || status == 4);
     json_t *result = json_file("limited/result.json");
@@ -211,7 +211,7 @@ static pid_t begin(const char *how, pid_t ranks[3])
     snprintf(line, sizeof line,
              "cd '%s' && " MPIRUN "%s -n 3 " PLACE "long.yaml -o ended --quiet >.out 2>.err </dev/null", workplace,
              how);
-    write_long_scene("long.yaml", "", "40 mm");
+    write_long_scene("long.yaml", "", "60 mm");
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {

@@ -224,7 +224,7 @@ static void many_nozzles_have_a_certificate(void **state)
     (void)state;
     job j;
     job_open_coarse(&j, 0.2);
-    j.types[1] = room_cone("drip", 60 * DEGREE, 0.05);
+    j.types[1] = room_cone("drip", 60 * DEGREE, 0.1);
     j.options.max_water = 32 * LITRES_PER_MINUTE;
     sp_proposal *proposal = job_place(&j);
     assert_true(proposal->coverage->flow > 256 * j.types[1].flow);
