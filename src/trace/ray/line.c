@@ -19,7 +19,7 @@ bool sp_line_start(sp_line *line, const sp_ray *ray)
 }
 
 /* The triangle is sheared so that the line becomes the z axis. */
-static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
+void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
 {
     double x[3], y[3], z[3], weights[3];
     for (int i = 0; i < 3; i++) {
@@ -35,21 +35,15 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
         sp_ray_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);
 }
 
-void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
-{
-    test(line, corners, triangle, search);
-}
-
 void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_ray_search *search)
 {
     for (size_t t = 0; t < count && !sp_ray_search_done(search); t++)
-        test(line, corners[t], (uint32_t)t, search);
+        sp_line_test(line, corners[t], (uint32_t)t, search);
 }
 
-/* A line on its way through a tree. Every plane is taken as thick as `margin`, so that rounding never decides which
- * cells are visited. Where the line is at the time of a hit, it is less than 2^-40 of the distance of the farthest
- * corner away from the triangle: the corners' rounding is 2^-52 of that distance, and the sliver's test keeps the
- * weights' from exceeding it by more than 2^8 and a small factor. */
+/* A line on its way through a tree. Where the line is at the time of a hit, it is less than 2^-40 of the distance of
+ * the farthest corner away from the triangle: the corners' rounding is 2^-52 of that distance, and the sliver's test
+ * keeps the weights' from exceeding it by more than 2^8 and a small factor. */
 typedef struct {
     const sp_line *line;
     double margin;     /* m */
@@ -86,56 +80,33 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
     return *from <= *to;
 }
 
-typedef struct {
-    uint32_t node;
-    double from, to; /* s */
-} pending;
-
-/* Goes on to one child; puts the other, if the line passes it too, on the stack. */
-static inline void step(const walk *w, const sp_kd_node *node, pending *at, pending stack[], int *height)
+static inline double ahead(const walk *w, int axis, double split, double time)
 {
-    uint32_t axis = node->size & 3, left = at->node + 1, right = node->right;
-    double offset = node->split - w->line->origin[axis];
-    if (w->still[axis]) {
-        if (fabs(offset) <= w->margin * 2)
-            stack[(*height)++] = (pending){right, at->from, at->to};
-        at->node = offset >= -2 * w->margin ? left : right;
-        return;
-    }
-    uint32_t near = w->rising[axis] ? left : right, far = w->rising[axis] ? right : left;
-    double crossing = offset * w->inverse[axis], arrival = crossing - w->slack[axis],
-           departure = crossing + w->slack[axis];
-    if (departure < at->from) {
-        at->node = far;
-    } else {
-        if (arrival <= at->to)
-            stack[(*height)++] = (pending){far, sp_greater(at->from, arrival), at->to};
-        at->node = near;
-        at->to = sp_lesser(at->to, departure);
-    }
+    (void)time; /* of which a coordinate that is still does not tell */
+    return split - w->line->origin[axis];
 }
+
+static inline void pass_plane(const walk *w, int axis, double split, double from, double to, double *arrival,
+                              double *departure)
+{
+    (void)from;
+    (void)to;
+    double crossing = (split - w->line->origin[axis]) * w->inverse[axis];
+    *arrival = crossing - w->slack[axis];
+    *departure = crossing + w->slack[axis];
+}
+
+static inline void test(const walk *w, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
+{
+    sp_line_test(w->line, corners, triangle, search);
+}
+
+#include "trace/ray/kd_walk.h"
 
 void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_ray_search *search)
 {
     walk w = {.line = line};
-    pending stack[SP_KD_DEPTH + 1], at = {0, search->t_min, search->limit};
-    int height = 0;
-    if (!enter(&w, tree, &at.from, &at.to))
-        return;
-    for (;;) {
-        const sp_kd_node *node = &tree->nodes[at.node];
-        while ((node->size & 3) != SP_KD_LEAF) {
-            step(&w, node, &at, stack, &height);
-            node = &tree->nodes[at.node];
-        }
-        const uint32_t *references = tree->references + node->right;
-        for (uint32_t i = 0; i < node->size / 4; i++)
-            test(line, corners[references[i]], references[i], search);
-        do {
-            if (height == 0 || sp_ray_search_done(search))
-                return;
-            at = stack[--height];
-        } while (at.from > search->limit);
-        at.to = sp_lesser(at.to, search->limit);
-    }
+    double from = search->t_min, to = search->limit;
+    if (enter(&w, tree, &from, &to))
+        search_leaves(&w, corners, tree, from, to, search);
 }

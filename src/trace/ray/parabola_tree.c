@@ -61,14 +61,9 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
     return true;
 }
 
-typedef struct {
-    uint32_t node;
-    double from, to; /* s */
-} pending;
-
 /* When the flight comes within the margin of the plane, and when it has left it: within from..to, or before or after
  * where that is not so. */
-static inline void pass_plane(const walk *w, int axis, double split, const pending *at, double *arrival,
+static inline void pass_plane(const walk *w, int axis, double split, double from, double to, double *arrival,
                               double *departure)
 {
     const sp_parabola *p = w->flight;
@@ -79,65 +74,34 @@ static inline void pass_plane(const walk *w, int axis, double split, const pendi
         return;
     }
     bool rising = w->rising[axis];
-    double sign = rising ? 1 : -1, a = sign * (sp_parabola_coordinate(p, axis, at->from) - split);
-    double b = sign * (sp_parabola_coordinate(p, axis, at->to) - split);
-    *arrival = a >= -w->margin ? at->from : INFINITY;
-    *departure = b <= w->margin ? at->to : a > w->margin ? -INFINITY : at->to;
+    double sign = rising ? 1 : -1, a = sign * (sp_parabola_coordinate(p, axis, from) - split);
+    double b = sign * (sp_parabola_coordinate(p, axis, to) - split);
+    *arrival = a >= -w->margin ? from : INFINITY;
+    *departure = b <= w->margin ? to : a > w->margin ? -INFINITY : to;
     if (a < -w->margin && b >= -w->margin)
-        *arrival = clamp(time_at(p, axis, split - sign * w->margin, rising), at->from, at->to);
+        *arrival = clamp(time_at(p, axis, split - sign * w->margin, rising), from, to);
     if (a <= w->margin && b > w->margin)
-        *departure = clamp(time_at(p, axis, split + sign * w->margin, rising), at->from, at->to);
+        *departure = clamp(time_at(p, axis, split + sign * w->margin, rising), from, to);
 }
 
-/* Goes on to one child; puts the other, if the flight passes it too, on the stack. */
-static inline void step(const walk *w, const sp_kd_node *node, pending *at, pending stack[], int *height)
+static inline double ahead(const walk *w, int axis, double split, double time)
 {
-    int axis = (int)(node->size & 3);
-    uint32_t left = at->node + 1, right = node->right;
-    if (w->still[axis]) {
-        double offset = node->split - sp_parabola_coordinate(w->flight, axis, at->from);
-        if (fabs(offset) <= 2 * w->margin)
-            stack[(*height)++] = (pending){right, at->from, at->to};
-        at->node = offset >= -2 * w->margin ? left : right;
-        return;
-    }
-    double arrival, departure;
-    pass_plane(w, axis, node->split, at, &arrival, &departure);
-    uint32_t near = w->rising[axis] ? left : right, far = w->rising[axis] ? right : left;
-    if (departure < at->from) {
-        at->node = far;
-    } else {
-        if (arrival <= at->to)
-            stack[(*height)++] = (pending){far, sp_greater(at->from, arrival), at->to};
-        at->node = near;
-        at->to = sp_lesser(at->to, departure);
-    }
+    return split - sp_parabola_coordinate(w->flight, axis, time);
 }
+
+static inline void test(const walk *w, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
+{
+    sp_parabola_test(w->flight, corners, triangle, search);
+}
+
+#include "trace/ray/kd_walk.h"
 
 static void search_piece(const sp_parabola *flight, const sp_corners *corners, const sp_kd_tree *tree, double from,
                          double to, sp_ray_search *search)
 {
     walk w = {.flight = flight};
-    pending stack[SP_KD_DEPTH + 1], at = {0, from, to};
-    int height = 0;
-    if (!enter(&w, tree, &at.from, &at.to))
-        return;
-    for (;;) {
-        const sp_kd_node *node = &tree->nodes[at.node];
-        while ((node->size & 3) != SP_KD_LEAF) {
-            step(&w, node, &at, stack, &height);
-            node = &tree->nodes[at.node];
-        }
-        const uint32_t *references = tree->references + node->right;
-        for (uint32_t i = 0; i < node->size / 4; i++)
-            sp_parabola_test(flight, corners[references[i]], references[i], search);
-        do {
-            if (height == 0 || sp_ray_search_done(search))
-                return;
-            at = stack[--height];
-        } while (at.from > search->limit);
-        at.to = sp_lesser(at.to, search->limit);
-    }
+    if (enter(&w, tree, &from, &to))
+        search_leaves(&w, corners, tree, from, to, search);
 }
 
 double sp_parabola_turn(const sp_parabola *p, double from, double last)
