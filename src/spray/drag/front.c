@@ -3,37 +3,82 @@
 
 #define SLACK 1e-6 /* beyond what the table may be off */
 
+#define PAIRS (SP_FRONT_DATA / 2)
+typedef double pair __attribute__((vector_size(16), aligned(8), may_alias));
+
 /* A moment's data and their slopes by the elevation: Chebyshev's sums, and the derivatives of their polynomials. */
 typedef struct {
-    double value[SP_FRONT_DATA], slope[SP_FRONT_DATA];
+    pair value[PAIRS], slope[PAIRS];
 } sums;
 
-static sums sum_up(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
+/* The polynomial in hand, and its derivative; the one before. */
+typedef struct {
+    double at, now, before, slope_now, slope_before;
+} polynomial;
+
+static polynomial first_polynomial(double elevation)
 {
-    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
-    double at = elevation / (0.5 * M_PI), now = 1, before = at, slope_now = 0,
-           slope_before = 1; /* the polynomial -1 is the first */
-    sums own = {0};
-    for (unsigned n = 0; n < terms; n++) {
-        for (int k = 0; k < SP_FRONT_DATA; k++) {
-            own.value[k] += now * sum[n][k];
-            own.slope[k] += slope_now * sum[n][k];
-        }
-        double next = 2 * at * now - before, slope_next = 2 * now + 2 * at * slope_now - slope_before;
-        before = now;
-        slope_before = slope_now;
-        now = next;
-        slope_now = slope_next;
+    double at = elevation / (0.5 * M_PI); /* the polynomial -1 is the first */
+    return (polynomial){.at = at, .now = 1, .before = at, .slope_now = 0, .slope_before = 1};
+}
+
+static inline void advance(polynomial *p)
+{
+    double next = 2 * p->at * p->now - p->before, slope_next = 2 * p->now + 2 * p->at * p->slope_now - p->slope_before;
+    p->before = p->now;
+    p->slope_before = p->slope_now;
+    p->now = next;
+    p->slope_now = slope_next;
+}
+
+static inline void add(sums *own, const double sum[SP_FRONT_DATA], const polynomial *p)
+{
+    for (int k = 0; k < PAIRS; k++) {
+        pair data = *(const pair *)(sum + 2 * k);
+        own->value[k] += p->now * data;
+        own->slope[k] += p->slope_now * data;
     }
-    for (int k = 0; k < SP_FRONT_DATA; k++)
-        own.slope[k] /= 0.5 * M_PI;
-    return own;
+}
+
+static inline void finish(sums *own)
+{
+    for (int k = 0; k < PAIRS; k++)
+        own->slope[k] /= 0.5 * M_PI;
 }
 
 sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
 {
-    sums own = sum_up(fronts, i, terms, elevation);
-    return (sp_front){own.value[0], own.value[1], own.slope[0], own.value[3], own.value[4], own.slope[3]};
+    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    polynomial p = first_polynomial(elevation);
+    sums own = {0};
+    for (unsigned n = 0; n < terms; n++, advance(&p))
+        add(&own, sum[n], &p);
+    finish(&own);
+    const double *value = (const double *)own.value, *slope = (const double *)own.slope;
+    return (sp_front){value[0], value[1], slope[0], value[3], value[4], slope[3]};
+}
+
+/* Of moments i and i + 1, by the same polynomials. */
+static void sum_up(const sp_fronts *fronts, size_t i, double elevation, sums both[2])
+{
+    const double(*from)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    const double(*to)[SP_FRONT_DATA] = from + fronts->most;
+    unsigned terms[2] = {fronts->terms[i], fronts->terms[i + 1]}, common = terms[0] < terms[1] ? terms[0] : terms[1];
+    polynomial p = first_polynomial(elevation);
+    sums first = {0}, second = {0};
+    unsigned n = 0;
+    for (; n < common; n++, advance(&p)) {
+        add(&first, from[n], &p);
+        add(&second, to[n], &p);
+    }
+    for (; n < terms[0]; n++, advance(&p))
+        add(&first, from[n], &p);
+    for (; n < terms[1]; n++, advance(&p))
+        add(&second, to[n], &p);
+    finish(&first);
+    finish(&second);
+    both[0] = first;
+    both[1] = second;
 }
 
 /* The polynomials of order 5 that give value, first and second derivative at either end of a step of length 1. */
@@ -69,16 +114,18 @@ sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double
 {
     double step = fronts->time[i + 1] - fronts->time[i], x = (time - fronts->time[i]) / step;
     double weight[6], change[6];
-    sums from = sum_up(fronts, i, fronts->terms[i], elevation);
-    sums to = sum_up(fronts, i + 1, fronts->terms[i + 1], elevation);
+    sums both[2];
+    sum_up(fronts, i, elevation, both);
+    const double *from = (const double *)both[0].value, *to = (const double *)both[1].value;
+    const double *turn_from = (const double *)both[0].slope, *turn_to = (const double *)both[1].slope;
     quintic(x, weight);
     quintic_slope(x, change);
-    return (sp_front){.q = blend(weight, step, from.value, to.value),
-                      .q_time = blend(change, step, from.value, to.value) / step,
-                      .q_turn = blend(weight, step, from.slope, to.slope),
-                      .d = blend(weight, step, from.value + 3, to.value + 3),
-                      .d_time = blend(change, step, from.value + 3, to.value + 3) / step,
-                      .d_turn = blend(weight, step, from.slope + 3, to.slope + 3)};
+    return (sp_front){.q = blend(weight, step, from, to),
+                      .q_time = blend(change, step, from, to) / step,
+                      .q_turn = blend(weight, step, turn_from, turn_to),
+                      .d = blend(weight, step, from + 3, to + 3),
+                      .d_time = blend(change, step, from + 3, to + 3) / step,
+                      .d_turn = blend(weight, step, turn_from + 3, turn_to + 3)};
 }
 
 size_t sp_front_moment_before(const sp_fronts *fronts, double time)

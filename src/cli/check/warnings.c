@@ -1,0 +1,154 @@
+/* What looks wrong in a scene. */
+#include "findings.h"
+
+#include <stdarg.h>
+
+#define NOTHING 1e-6 /* of a part's area: round-off */
+#define FAR_OFF 0.01 /* of a body's volume, for that of its triangles */
+
+__attribute__((format(printf, 2, 3))) static void warn(cli_findings *found, const char *format, ...)
+{
+    if (found->warning_count == CLI_WARNINGS)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(found->warnings[found->warning_count++], sizeof *found->warnings, format, arguments);
+    va_end(arguments);
+}
+
+static void warn_of_mesh(cli_findings *found)
+{
+    const sp_mesh_diagnosis *mesh = &found->mesh;
+    if (cli_findings_setup(found)->cavity == SP_CAVITY_NONE && mesh->closed_shells)
+        warn(found,
+             "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
+             "once; name a point of the space where the liquid flies",
+             mesh->closed_shells);
+    if (mesh->degenerate.count)
+        warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate.count);
+    if (mesh->non_manifold_edges.count)
+        warn(found, "geometry: %zu edges belong to three or more triangles", mesh->non_manifold_edges.count);
+    if (mesh->flipped_edges.count)
+        warn(found, "geometry: at %zu edges neighbours disagree which side is the front", mesh->flipped_edges.count);
+    if (mesh->duplicate_triangles.count)
+        warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles.count);
+    if (mesh->cracks.count)
+        warn(found, "geometry: %zu corners on open edges lie within %.2g m of others and are not joined to them",
+             mesh->cracks.count, mesh->crack);
+    if (mesh->crossings.count)
+        warn(found, "geometry: %zu pairs of triangles of one shell run through each other", mesh->crossings.count);
+    if (mesh->bits.count)
+        warn(found, "geometry: %zu loose bits have next to no area", mesh->bits.count);
+}
+
+/* A file whose unit is not what the scene says is a thousand times too large or too small, or 25 times. */
+static void warn_of_size(cli_findings *found)
+{
+    for (size_t i = 0; i < found->size_count; i++) {
+        char text[sizeof *found->warnings];
+        if (found->sizes[i].plausible)
+            continue;
+        cli_size_ask(&found->sizes[i], i, text, sizeof text);
+        warn(found, "%s", text);
+    }
+}
+
+/* What a CAD file says that cannot be, and bodies that their triangles do not give. */
+static void warn_of_cad(cli_findings *found)
+{
+    const sp_mesh *mesh = cli_findings_setup(found)->mesh;
+    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
+    for (uint32_t i = 0; i <= last; i++) {
+        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
+        if (cad && cad->faults)
+            warn(found, "geometry: file %lu has %zu faults that may cost it surface, the first: %s", (unsigned long)i,
+                 cad->faults, cad->fault);
+    }
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        double body = mesh->parts[i].volume, own = found->part_volume[i];
+        if (fabs(body) > 0 && !(fabs(own) > 0))
+            warn(found, "part \"%s\": a solid in its file, but its triangles are not closed", mesh->parts[i].name);
+        else if (fabs(own - body) > FAR_OFF * fabs(body) && fabs(body) > 0)
+            warn(found, "part \"%s\": its triangles enclose %.6g m3, its body %.6g m3; a shorter `chord` may help",
+                 mesh->parts[i].name, own, body);
+    }
+}
+
+static void warn_of_cavity(cli_findings *found)
+{
+    const sp_setup *setup = cli_findings_setup(found);
+    sp_vec3 p = cli_findings_told(found, setup->cavity_point), low = found->mesh.minimum, high = found->mesh.maximum;
+    if (setup->cavity == SP_CAVITY_POINT &&
+        (p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y || p.z > high.z))
+        warn(found, "cavity: the point lies outside the geometry's box: what is counted is what faces it from there");
+}
+
+static void warn_of_sides(cli_findings *found)
+{
+    const sp_mesh *mesh = cli_findings_setup(found)->mesh;
+    for (size_t i = 0; i < mesh->part_count; i++)
+        if (found->part_sides[i].both > NOTHING * found->part_area[i])
+            warn(found,
+                 "part \"%s\": %.4g m2 of closed shells are wet on both sides; a shell may run through itself or be "
+                 "there twice",
+                 mesh->parts[i].name, found->part_sides[i].both);
+}
+
+/* Where the flood got out: harmless through an outlet under which nothing stands, and not where it reaches surface. */
+static void warn_of_openings(cli_findings *found)
+{
+    double outdoors = sp_evaluator_outdoors(found->opened->evaluator);
+    size_t count;
+    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
+    if (!(outdoors > 0))
+        return;
+    warn(
+        found,
+        "cavity: %.4g m2 of surface under the sky are seen through openings, and left out; see openings, and shut with "
+        "a lid or `caps:` what is shut in use",
+        outdoors);
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = cli_findings_told(found, openings[i].place);
+        warn(
+            found,
+            "cavity: an opening at [%.4g m, %.4g m, %.4g m], about %.2g m wide; a cap for it: {point: [%.4g m, %.4g m, "
+            "%.4g m], normal: .., radius: ..}",
+            p.x, p.y, p.z, openings[i].width, p.x, p.y, p.z);
+    }
+}
+
+static void warn_of_hollows(cli_findings *found)
+{
+    size_t count;
+    const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
+    for (size_t i = 0; i < count && !hollows[i].drains; i++) {
+        sp_vec3 p = cli_findings_told(found, hollows[i].place);
+        warn(found, "film: what runs down to [%.4g m, %.4g m, %.4g m] stands there: is a drain missing?", p.x, p.y,
+             p.z);
+    }
+}
+
+static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
+{
+    const sp_layout *layout = sp_scene_layout(found->opened->scene);
+    for (size_t i = 0; i < layout->count; i++) {
+        sp_error error = {0};
+        if (!cli_admits(found->opened, &layout->nozzles[i], &error))
+            warn(found, "%s", error.message);
+        if (error.kind == SP_ERROR_MEMORY)
+            return sp_fail_memory(failure);
+    }
+    return true;
+}
+
+bool cli_findings_warn(cli_findings *found, sp_error *error)
+{
+    warn_of_mesh(found);
+    warn_of_size(found);
+    warn_of_cad(found);
+    warn_of_cavity(found);
+    warn_of_sides(found);
+    warn_of_openings(found);
+    warn_of_hollows(found);
+    return warn_of_nozzles(found, error);
+}
