@@ -65,7 +65,7 @@ bool sp_edge_walk_next(sp_edge_walk *walk, const sp_atlas *atlas)
     walk->from = walk->to;
     double next_a = walk->crossings[0].items[walk->at_a], next_b = walk->crossings[1].items[walk->at_b];
     walk->to = fmin(next_a, next_b);
-    assert(walk->from < walk->to);
+    assert(walk->from <= walk->to);
     walk->at_a += next_a <= next_b;
     walk->at_b += next_b <= next_a;
     double middle = 0.5 * (walk->from + walk->to);
