@@ -37,7 +37,7 @@ static sp_rim rim_at(double angle, double beyond)
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
 {
-    assert(strength > 0 && slack >= 0 && spray->inner >= 0);
+    assert(strength >= 0 && slack >= 0 && spray->inner >= 0); /* strength 0: nothing covers alone, of goods that move */
     sp_region region = {.fan = spray->kind == SP_PATTERN_FLAT_FAN,
                         .height = 2,
                         .alone_from = (float)((1 - slack) / strength),
