@@ -1,10 +1,12 @@
 #include "attainable/offers.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 
 bool sp_place_offers_take(const sp_place_offers *offers, size_t place, sp_offer offer)
 {
+    assert(place < offers->count && offer.ratio >= 0 && offer.low >= 0);
     sp_offer *strongest = &offers->strongest[place], *thriftiest = &offers->thriftiest[place];
     double most = offer.ratio * offer.high, had = strongest->ratio * strongest->high;
     /* of equals the one that can take least water, whichever came first */

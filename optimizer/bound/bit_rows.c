@@ -3,6 +3,7 @@
 #include "mesh/grow.h"
 #include "ranking/ranking.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,10 +17,12 @@ static void place_texels(sp_ranked *order, size_t count, sp_bit_rows *sets)
 {
     sp_rank_falling(order, count);
     sets->unit = count ? order[0].merit / UNITS * UPWARDS : 1;
+    assert(sets->unit > 0);
     for (size_t i = 0; i < count; i++) {
         sets->place[order[i].at] = (uint32_t)i;
         if (i % 64 == 0)
             sets->area[i / 64] = (uint32_t)ceil(order[i].merit / sets->unit);
+        assert(sets->area[i / 64] <= UNITS && order[i].merit <= sets->area[i / 64] * sets->unit * UPWARDS);
     }
 }
 
@@ -81,12 +84,14 @@ static bool make_room(sp_bit_rows *sets, size_t edges)
 bool sp_bit_rows_add(sp_bit_rows *sets, const sp_cover *cover, const sp_rows *rows, size_t row, double least,
                      sp_error *error)
 {
+    assert(least > 0 && row < rows->count); /* else entries of edges would be bits, too */
     if (!make_room(sets, rows->start[row + 1] - rows->start[row]))
         return sp_fail_memory(error);
     uint64_t *bits = sets->bits + sets->count * sets->words;
     memset(bits, 0, sets->words * sizeof *bits);
     sets->start[sets->count] = sets->edges;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
+        assert(rows->texel[i] < cover->texel_count);
         uint32_t place = sets->place[rows->texel[i]];
         float share = rows->share[i];
         if (place == UINT32_MAX)
@@ -148,6 +153,7 @@ __attribute__((target(WIDE))) static uint64_t count_gain_wide(const uint64_t *ro
 
 double sp_bit_rows_gain(const sp_bit_rows *sets, size_t row, const uint64_t *had)
 {
+    assert(row < sets->count);
     const uint64_t *bits = sets->bits + row * sets->words;
 #if defined __x86_64__ && defined __GNUC__
     if (__builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("avx512dq"))

@@ -2,6 +2,7 @@
 
 #include "bound/solve.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +31,7 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     bound->lightest = UINT32_MAX;
     for (size_t k = 0; k < cover->tier_count; k++)
         bound->lightest = cover->weight[k] < bound->lightest ? cover->weight[k] : bound->lightest;
+    assert(bound->lightest > 0); /* it divides water into numbers of nozzles */
     double whole = cover->base;
     for (size_t t = 0; t < cover->texel_count; t++)
         whole += (double)cover->area[t];
@@ -149,6 +151,7 @@ static bool solve(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t fit = water / bound->lightest;
+    assert(fit > 0 && water <= cover->water);
     sp_valid_inequalities_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->inequalities);
     sp_dual_task task = {.nozzles = cover->nozzles,
                          .water = water,
@@ -193,8 +196,10 @@ bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error)
 
 size_t sp_bound_water(const sp_bound *bound, double area)
 {
-    for (size_t w = 0; w <= bound->cover->water; w++)
+    for (size_t w = 0; w <= bound->cover->water; w++) {
+        assert(w == 0 || bound->by_water[w] >= bound->by_water[w - 1]);
         if (bound->by_water[w] >= area)
             return w;
+    }
     return SIZE_MAX;
 }

@@ -1,5 +1,6 @@
 #include "bound/candidate_list.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 void sp_candidate_list_free(sp_candidate_list *list)
@@ -15,6 +16,7 @@ void sp_candidate_list_free(sp_candidate_list *list)
 static size_t part_of(const size_t *starts, size_t count, size_t position)
 {
     size_t low = 0, high = count;
+    assert(count && starts[0] <= position && position < starts[count]);
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
         if (starts[middle] <= position)

@@ -2,6 +2,7 @@
 
 #include "bound/iterate.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,7 @@ static size_t group_row(const sp_dual *dual, const sp_rows *rows, size_t row, co
             share[count] = strengthened[count] = 0;
             count++;
         }
+        assert(part <= 1 && (count < 2 || group[count - 2] < g));
         share[count - 1] += part * sp_share_of(rows->share[i]);
         strengthened[count - 1] +=
             inequalities ? part * sp_share_strengthened(inequalities, dual->u.kind[t], rows->share[i]) : 0;

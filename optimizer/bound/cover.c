@@ -2,14 +2,27 @@
 
 #include "mesh/grow.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define UPWARDS (1 + 1e-11)
 
+#ifndef NDEBUG
+/* Texels ascend, with one entry or, where a spray ends within one, two; no share is 0 or a NaN. */
+static bool is_row(const uint32_t *texels, const float *shares, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if ((i && texels[i - 1] > texels[i]) || !(fabsf(shares[i]) > 0))
+            return false;
+    return true;
+}
+#endif
+
 static bool make_room(sp_rows *rows, size_t more)
 {
+    assert(rows->count <= rows->capacity && rows->used <= rows->room);
     if (rows->count == rows->capacity) {
         size_t capacity = rows->capacity ? 2 * rows->capacity : 256;
         if (!sp_reallocate(&rows->start, capacity + 1, sizeof *rows->start) ||
@@ -34,6 +47,7 @@ static bool make_room(sp_rows *rows, size_t more)
 bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
                  size_t count, sp_error *error)
 {
+    assert(is_row(texels, shares, count));
     if (!make_room(rows, count))
         return sp_fail_memory(error);
     if (!rows->count)
@@ -160,7 +174,10 @@ double sp_rows_price(const sp_rows *rows, size_t row, const sp_multipliers *mult
 double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers)
 {
     double rest = 0;
-    for (size_t t = 0; t < cover->texel_count; t++)
+    for (size_t t = 0; t < cover->texel_count; t++) {
+        /* below 0 they would prove less than is true */
+        assert(multipliers->plain[t] >= 0 && multipliers->strengthened[t] >= 0);
         rest += fmax(0, (double)cover->area[t] - (double)multipliers->plain[t] - (double)multipliers->strengthened[t]);
+    }
     return rest * UPWARDS;
 }

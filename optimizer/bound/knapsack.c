@@ -1,5 +1,6 @@
 #include "bound/knapsack.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@ bool sp_offers_create(size_t tier_count, const uint32_t *weight, size_t port_cou
                           .port_count = port_count,
                           .most = repeats ? 1 : most,
                           .repeats = repeats};
+    assert(offers->most > 0);
     offers->port = calloc(port_count * tier_count + 1, sizeof *offers->port);
     offers->free = calloc(tier_count * offers->most + 1, sizeof *offers->free);
     if (offers->port && offers->free)
@@ -37,6 +39,8 @@ void sp_offers_clear(sp_offers *offers)
 
 void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price)
 {
+    assert(tier < offers->tier_count && (port == SIZE_MAX || port < offers->port_count));
+    assert(!isnan(price)); /* which every comparison would leave out */
     if (port != SIZE_MAX) {
         double *best = &offers->port[port * offers->tier_count + tier];
         *best = fmax(*best, price);
@@ -126,10 +130,12 @@ static double best_of(const sp_offers *offers)
 void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t water)
 {
     size_t row = knapsack->water + 1;
+    assert(water <= knapsack->water);
     for (size_t n = 0; n < knapsack->rows; n++)
         memset(knapsack->value + n * row, 0, (water + 1) * sizeof *knapsack->value);
     for (size_t k = 0; k < offers->tier_count; k++) {
         const double *prices = &offers->free[k * offers->most];
+        assert(offers->weight[k] > 0 && prices[0] >= prices[offers->most - 1]);
         if (offers->repeats && prices[0] > 0)
             take_many(knapsack, offers->weight[k], prices[0], water);
         for (size_t i = 0; !offers->repeats && i < offers->most && prices[i] > 0; i++) {
@@ -148,6 +154,7 @@ void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t wat
 
 double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water)
 {
+    assert(nozzles <= knapsack->nozzles && water <= knapsack->water);
     if (knapsack->rows > 1)
         return knapsack->value[nozzles * (knapsack->water + 1) + water];
     return fmin(knapsack->value[water], (double)nozzles * knapsack->best);

@@ -1,5 +1,6 @@
 #include "bound/pdhg.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,11 +62,13 @@ static bool strengthen_rows(sp_pdhg *h, sp_error *error)
     h->strengthened = malloc((rows->used + 1) * sizeof *h->strengthened);
     if (!h->strengthened)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < rows->used; i++)
+    for (size_t i = 0; i < rows->used; i++) {
+        assert(rows->texel[i] < h->dual->texels && (h->task->strengthened || fabsf(rows->share[i]) <= 1));
         h->strengthened[i] =
             h->task->strengthened
                 ? h->task->strengthened[i]
                 : sp_share_strengthened(h->task->inequalities, h->dual->u.kind[rows->texel[i]], rows->share[i]);
+    }
     return true;
 }
 
@@ -128,6 +131,7 @@ static void set_steps(sp_pdhg *h)
     double mean;
     add_shares(h, &mean);
     h->scale = mean > 0 ? 0.5 * mean * (double)h->task->nozzles : 1;
+    assert(h->scale > 0 && isfinite(h->scale));
     for (size_t r = 0; r < h->resources; r++)
         h->load[r] = 0;
     for (size_t c = 0; c < h->rows->count; c++) {
@@ -139,6 +143,7 @@ static void set_steps(sp_pdhg *h)
             h->tau[c] += takes.amount[k];
         }
         h->tau[c] = 1 / h->tau[c];
+        assert(h->tau[c] > 0);
     }
     for (size_t t = 0; t < 2 * h->dual->texels; t++)
         h->sigma[t] = h->sigma[t] > 0 ? 1 / h->sigma[t] : 0;
@@ -148,6 +153,7 @@ static void set_steps(sp_pdhg *h)
 
 bool sp_pdhg_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_pdhg *h, sp_error *error)
 {
+    assert(task->nozzles > 0 && dual->weight > 0 && rows->count <= dual->row_capacity);
     *h = (sp_pdhg){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
     if (!allocate(h, error) || !strengthen_rows(h, error)) {
         sp_pdhg_free(h);

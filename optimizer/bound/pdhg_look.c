@@ -1,5 +1,6 @@
 #include "bound/pdhg.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define RESTART 0.5 /* starts anew from the average once that has closed this share of the gap */
@@ -98,6 +99,7 @@ bool sp_pdhg_look(sp_pdhg *h, size_t iteration)
 {
     sp_dual *dual = h->dual;
     double over = (double)h->since;
+    assert(h->since > 0); /* means are over the steps since the last restart */
     for (size_t t = 0; t < dual->texels; t++) {
         float area = dual->cover->area[t];
         h->u_mean.plain[t] = fminf((float)(h->u_sum[t] / over), area);

@@ -1,5 +1,6 @@
 #include "bound/pdhg.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define SHARES_A_THREAD 300000
@@ -135,6 +136,7 @@ static void step_rows(sp_pdhg *h)
 void sp_pdhg_step(sp_pdhg *h)
 {
     sp_dual *dual = h->dual;
+    assert(dual->weight > 0 && isfinite(dual->weight));
     find_prices(h);
     step_rows(h);
     sp_pdhg_add_up(h, h->x_bar);
@@ -145,6 +147,7 @@ void sp_pdhg_step(sp_pdhg *h)
     for (size_t r = 0; r < h->resources; r++) {
         double beyond = h->use[r] - sp_pdhg_limit(h, r);
         h->resource_sum[r] += h->dual_resource[r];
+        assert(h->dual_resource[r] >= 0 && h->sigma_resource[r] >= 0);
         h->dual_resource[r] = fmax(0, h->dual_resource[r] + dual->weight * h->sigma_resource[r] * beyond);
     }
     h->since++;

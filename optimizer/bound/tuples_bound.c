@@ -1,5 +1,6 @@
 #include "bound/tuples_work.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -30,6 +31,7 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_candidate_list *list
     if (water / o->unit > STEPS_MOST)
         return o;
     o->steps = water / o->unit;
+    assert(o->unit <= o->lightest && o->steps <= STEPS_MOST);
     bool done = true;
     for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
         o->most_priced[k] = malloc(list->kind_count * (o->steps + 1) * sizeof(double));
@@ -78,7 +80,8 @@ bool sp_tuples_bound(sp_tuples *o, double target, double work_most, sp_tuple_ans
     o->over = false;
     o->found_count = 0;
     bool done = sp_tuples_list_able(o, error), begun = !o->over;
-    done = done && (!begun || sp_tuples_enumerate(o, error)) &&
+    /* where it was broken off, candidates may be without sets */
+    done = done && (!begun || !sp_cover_goes_on(o->cover) || sp_tuples_enumerate(o, error)) &&
            (o->over || sp_tuples_check_found(o, &answer->bound, error));
     answer->complete = done && !o->over && sp_cover_goes_on(o->cover);
     /* what was done of what is broken off depends on threads: all that it might have been counts */

@@ -1,5 +1,6 @@
 #include "bound/tuples_work.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,7 @@ static bool bring(const sp_tuples *o, uint32_t one, const brought *from, brought
                 sum += (double)row.share[end] * SHARE_UPWARDS;
             else
                 dry *= 1 + (double)row.share[end];
+        assert(dry >= 0 && dry <= 1);
         to->area += (covered_of(sum, dry) - before) * (double)o->cover->area[t];
         if (to->sum) {
             to->sum[t] = sum;

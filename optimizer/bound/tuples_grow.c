@@ -3,6 +3,7 @@
 #include "mesh/grow.h"
 #include "ranking/ranking.h"
 
+#include <assert.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,6 +112,7 @@ static void settle(const sp_tuples *o, level *at)
         sp_rank_falling(at->entries + first, end - first);
         at->end[k] = first = end;
     }
+    assert(first == at->count); /* entries stood by kinds */
     for (size_t k = o->list->kind_count; k-- > 0;) {
         size_t start = k ? at->end[k - 1] : 0;
         double *most = sp_tuples_of_kind(o, at->most, k);
@@ -140,6 +142,7 @@ static void list_joining(worker *own, size_t depth, size_t first, double covered
             continue;
         }
         double others = most[(water - other->weight) / o->unit];
+        assert(other->set < o->sets.count && other->kind >= chosen->kind);
         if (covered + from->entries[i].merit + others <= o->target) {
             i = from->end[other->kind] - 1;
             continue;
@@ -164,6 +167,7 @@ static bool choose(worker *own, size_t depth, size_t i, double covered, const do
     const level *at = &own->levels[depth];
     const sp_tuple_item *one = &o->items[at->entries[i].at];
     double now = (covered + at->entries[i].merit) * UPWARDS;
+    assert(depth < DEEP_MOST && one->weight <= water && one->set < o->sets.count);
     size_t left = water - one->weight;
     if (now + sp_tuples_of_kind(o, at->most, one->kind)[left / o->unit] <= o->target)
         return false;

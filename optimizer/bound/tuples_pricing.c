@@ -2,6 +2,7 @@
 
 #include "mesh/grow.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 void sp_tuples_fill_kind(const sp_tuples *o, size_t kind, double best, const double *lighter, double *most)
 {
     size_t own = o->list->weight[kind] / o->unit;
+    assert(own > 0); /* a candidate takes a step at least, or would be counted once for any number */
     for (size_t s = 0; s <= o->steps; s++)
         most[s] = lighter ? lighter[s] : 0;
     for (size_t s = own; best > 0 && s <= o->steps; s++)
@@ -90,6 +92,7 @@ static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *
 /* Prices what is alive anew, exactly. */
 static bool price_by(sp_tuples *o, const sp_multipliers *u, const uint8_t *alive, float *price, sp_error *error)
 {
+    assert(o->priced < BY_MULTIPLIERS);
     o->rest[o->priced++] = o->cover->base + sp_cover_rest(o->cover, u);
     return o->list->price(o->list->user, u, alive, price, error);
 }
@@ -115,6 +118,7 @@ static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY
     const sp_candidate_list *list = o->list;
     for (size_t r = 0; r < list->run_count; r++) {
         size_t kind = sp_candidate_list_kind(list, list->run_start[r]);
+        assert(list->run_start[r + 1] <= list->kind_start[kind + 1]);
         for (size_t i = list->run_start[r]; i < list->run_start[r + 1]; i++) {
             if (!alive[i])
                 continue;

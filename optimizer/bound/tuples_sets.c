@@ -1,5 +1,6 @@
 #include "bound/tuples_work.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define BYTES_MOST 4e8         /* of sets */
@@ -67,6 +68,7 @@ bool sp_tuples_list_able(sp_tuples *o, sp_error *error)
     o->able_count = 0;
     for (size_t i = 0; o->able && i < o->count; i++) {
         const sp_tuple_item *own = &o->items[i];
+        assert(own->weight <= o->water && (i == 0 || own[-1].weight >= own->weight));
         if (sp_tuples_all_above(o, none, own->price, 0, o->water - own->weight)) {
             o->able[o->able_count++] = (uint32_t)i;
             o->work += own->set == NO_SET ? WORK_ROW : 0;

@@ -1,5 +1,6 @@
 #include "bound/valid_inequality.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define UPWARDS (1 + 1e-6f)
@@ -34,9 +35,13 @@ static void add(sp_valid_inequalities *inequalities, const double values[SP_INEQ
     for (size_t i = 0; i <= SP_INEQUALITY_LEVELS; i++)
         own[i] = fminf(1, (float)values[i] * UPWARDS);
     own[0] = 0;
-    for (size_t i = 1; i <= SP_INEQUALITY_LEVELS; i++)
+    /* a share of 1 must count whole: all inequalities are valid by that */
+    assert(inequalities->kinds <= SP_INEQUALITY_KINDS && own[SP_INEQUALITY_LEVELS] == 1);
+    for (size_t i = 1; i <= SP_INEQUALITY_LEVELS; i++) {
+        assert(own[i] >= own[i - 1]);
         inequalities->steep[kind] =
             fmaxf(inequalities->steep[kind], own[i] * (float)SP_INEQUALITY_LEVELS / (float)i * UPWARDS);
+    }
 }
 
 void sp_valid_inequalities_create(size_t nozzles, sp_valid_inequalities *inequalities)
@@ -47,6 +52,7 @@ void sp_valid_inequalities_create(size_t nozzles, sp_valid_inequalities *inequal
                                           {3, 0.1},  {3, 0.3}, {3, 0.6}, {4, 0.2}, {4, 0.5}};
     double n = (double)nozzles, values[SP_INEQUALITY_LEVELS + 1];
     size_t levels = SP_INEQUALITY_LEVELS;
+    assert(nozzles > 0);
     *inequalities = (sp_valid_inequalities){.nozzles = nozzles};
     for (size_t k = 0; k < sizeof cuts / sizeof *cuts; k++) {
         for (size_t i = 0; i <= levels; i++)

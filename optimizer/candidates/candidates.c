@@ -2,6 +2,7 @@
 
 #include "candidates/launches.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Axes lie at most about a third of the pattern's half-angle apart, and closer, down to a twelfth, while there are
@@ -187,6 +188,7 @@ static bool axes_create(const sp_place_options *options, const sp_sites *sites, 
             double step = axis_step(variant, &spacing), tilt = axis_tilt(variant, &options->mounts[m]);
             sp_axes *axes = &candidates->axes[m * candidates->variant_count + k];
             sp_step setting = options->mounts[m].tilt_step;
+            assert(step > 0);
             axes->axes = malloc(rings(tilt, step, setting, NULL) * sizeof *axes->axes);
             if (!axes->axes)
                 return sp_fail_memory(error);

@@ -4,6 +4,7 @@
 #include "certificate/aim_bound.h"
 #include "certificate/problem.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -342,6 +343,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
         sp_front_point *point = &front->by_water.entries[i].point;
         point->counted = sp_partial_counted(c->problem.search, &front->by_water.entries[i].partial);
         point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->outlay)]);
+        assert(point->counted <= point->bound * (1 + LESS));
     }
     size_t water = sp_bound_water(&c->bound, counted);
     certificate->computed = true;
@@ -353,6 +355,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     certificate->area_bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, front->best.outlay)]);
     certificate->water_bound =
         fmin(front->best.outlay, c->problem.search->kept_flow + sp_water_least(&c->problem.units, water));
+    assert(counted <= certificate->area_bound * (1 + LESS) && certificate->water_bound >= 0);
     certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
 }
 

@@ -3,6 +3,7 @@
 #include "ranking/ranking.h"
 #include "scoring/scoring.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 static double along(sp_vec3 v, int axis)
@@ -151,6 +152,22 @@ static void add_found(list_builder *l, uint32_t tier, size_t *listed)
     }
 }
 
+#ifndef NDEBUG
+/* Blocks and runs begin where the one before ends, and cover all positions; kinds get lighter. */
+static bool is_covered(const sp_pose_order *order)
+{
+    const sp_candidate_list *list = &order->list;
+    bool covered = order->blocks[0].start == 0 && list->run_start[0] == 0 && list->kind_start[0] == 0;
+    for (size_t i = 0; covered && i < order->block_count; i++)
+        covered = order->blocks[i].start < order->blocks[i + 1].start;
+    for (size_t i = 0; covered && i < list->run_count; i++)
+        covered = list->run_start[i] < list->run_start[i + 1];
+    for (size_t i = 0; covered && i < list->kind_count; i++)
+        covered = list->kind_start[i] < list->kind_start[i + 1] && (i == 0 || list->weight[i - 1] >= list->weight[i]);
+    return covered && order->blocks[order->block_count].start == list->count;
+}
+#endif
+
 static void fill(list_builder *l)
 {
     sp_candidate_list *list = &l->order->list;
@@ -173,6 +190,7 @@ static void fill(list_builder *l)
     }
     list->kind_start[list->kind_count] = list->run_start[list->run_count] = list->count;
     l->order->blocks[l->order->block_count].start = list->count;
+    assert(listed == l->order->own->count && is_covered(l->order));
 }
 
 bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of, const size_t *ports,
@@ -223,6 +241,7 @@ void sp_pose_order_free(sp_pose_order *order)
 size_t sp_pose_order_block(const sp_pose_order *order, size_t position)
 {
     size_t low = 0, high = order->block_count;
+    assert(position < order->list.count);
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
         if (order->blocks[middle].start <= position)
@@ -239,6 +258,7 @@ sp_pose sp_pose_order_at(const sp_pose_order *order, size_t block, size_t positi
     const sp_pose_block *own = &order->blocks[block];
     uint32_t mount = order->search->sites->items[own->site].mount;
     size_t rolls = candidates->variants[own->variant].roll_count, within = position - own->start;
+    assert(own->variant != SP_NONE && own->start <= position && position < own[1].start);
     const uint32_t *axis_at = order->axis_at[mount * candidates->variant_count + own->variant];
     return (sp_pose){own->site, own->variant, axis_at[within / rolls], (uint32_t)(within % rolls)};
 }
@@ -249,6 +269,7 @@ size_t sp_pose_order_position(const sp_pose_order *order, sp_pose pose)
     uint32_t mount = order->search->sites->items[pose.site].mount;
     size_t block = order->block_of[pose.site * candidates->variant_count + pose.variant];
     const uint32_t *rank_of = order->rank_of[mount * candidates->variant_count + pose.variant];
+    assert(block < order->block_count && pose.roll < candidates->variants[pose.variant].roll_count);
     return order->blocks[block].start + (size_t)rank_of[pose.axis] * candidates->variants[pose.variant].roll_count +
            pose.roll;
 }

@@ -1,5 +1,6 @@
 #include "certificate/water_units.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define UNITS_MOST 4096    /* of a budget */
@@ -13,6 +14,7 @@ static double common_measure(const double *flows, size_t count)
     double measure = flows[0], smallest = flows[0];
     for (size_t i = 1; i < count; i++)
         smallest = fmin(smallest, flows[i]);
+    assert(smallest > 0);
     for (size_t i = 1; i < count; i++) {
         double a = flows[i], b = measure;
         while (b > MEASURE_LEAST * smallest) {
@@ -38,6 +40,7 @@ static bool measures_all(const double *flows, size_t count, double unit, double 
 sp_water_units sp_water_units_create(const double *flows, size_t count, double least, size_t nozzles, double most)
 {
     sp_water_units units = {.unit = fmin(most / UNITS_MOST, least), .slack = SLACK / (double)(nozzles + 1)};
+    assert(units.unit > 0 && isfinite(units.unit));
     double measure = count ? common_measure(flows, count) : 0;
     if (!(measure > 0) || most / measure > UNITS_MOST)
         return units;

@@ -2,6 +2,7 @@
 
 #include "refine/move.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
@@ -37,6 +38,7 @@ void sp_turn_down(const sp_search *search, sp_partial *partial, double water)
     for (size_t i = 0; i < partial->count; i++) {
         sp_placed *placed = &partial->items[i];
         double low = sp_least_flow(search, placed);
+        assert(share > 0 && low >= 0 && low <= placed->flow);
         if (low < placed->flow)
             placed->nozzle.flow = placed->flow = placed->flow - share * (placed->flow - low);
     }

@@ -1,5 +1,7 @@
 #include "refine/smooth_arrivals.h"
 
+#include <assert.h>
+
 #define FAR 8.0 /* widths beyond the edge where nothing is left of a pattern */
 /* Width of the logistic step, of a patch's breadth, whose slope is that of sp_spray_share's. */
 #define OWN_EDGE (SP_SPRAY_BLUR / 7.5)
@@ -42,6 +44,7 @@ static void vary(sp_posed *posed, const double *values, size_t k)
     changed[k] += step;
     sp_nozzle nozzle = sp_pose_parameters_nozzle(parameters, changed);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, setup->up);
+    assert(step != 0);
     posed->turn[k] = (sp_frame){difference(frame.x, posed->frame.x, step), difference(frame.y, posed->frame.y, step),
                                 difference(frame.z, posed->frame.z, step)};
     posed->step[k] = step;
@@ -126,6 +129,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     borne->margin = margin_of(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
     double own = OWN_EDGE * seen->breadth;
     borne->edge = sqrt(posed->width.edge * posed->width.edge + own * own);
+    assert(borne->edge > 0);
     double widths = borne->margin / borne->edge;
     if (widths < -FAR)
         return false;
@@ -206,6 +210,7 @@ static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_s
 {
     double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
     double alone = alone_of(posed, flux, &rise);
+    assert(share >= 0 && alone >= 0 && alone <= 1);
     bool sums = !posed->search->single && posed->search->threshold > 0;
     arrivals->alone[i] = share * alone;
     arrivals->flux[i] = sums ? share * (1 - alone) * flux : 0;

@@ -2,6 +2,7 @@
 
 #include "scoring/footprints.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,6 +49,7 @@ void sp_field_add(const sp_field_making *making, uint32_t patch, bool passes, sp
 {
     const sp_posed_spray *posed = &making->posed;
     float *value = &making->field[patch];
+    assert(patch < making->search->patch_count && part >= 0 && part <= 1 && *value >= -1);
     if (making->runoff) {
         double share = sp_spray_share(&posed->spray, &posed->frame, direction, breadth);
         making->arriving[patch] += share * (double)part * making->intensity * fmax(0, transfer);

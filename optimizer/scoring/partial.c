@@ -4,6 +4,7 @@
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,6 +35,7 @@ static void count_up(const sp_search *search, sp_partial *partial)
         partial->value += (double)(search->area[p] * sp_worth(search, partial->wet[p], partial->dry[p]));
         partial->covered += (double)(search->area[p] * sp_covered(partial->wet[p], partial->dry[p]));
     }
+    assert(partial->covered >= 0 && partial->covered <= partial->value);
     partial->value *= search->all;
     partial->covered *= search->all;
 }
@@ -91,6 +93,7 @@ static bool append(sp_partial *partial, sp_placed placed, sp_error *error)
         free(placed.field);
         return sp_fail_memory(error);
     }
+    assert(placed.flow >= 0 && partial->count < partial->capacity);
     partial->items[partial->count++] = placed;
     return true;
 }
@@ -141,6 +144,7 @@ bool sp_partial_add_pose(const sp_search *search, sp_partial *partial, sp_pose p
 
 sp_placed sp_partial_take(const sp_search *search, sp_partial *partial, size_t i)
 {
+    assert(i < partial->count);
     sp_placed taken = partial->items[i];
     partial->count--;
     memmove(&partial->items[i], &partial->items[i + 1], (partial->count - i) * sizeof *partial->items);

@@ -1,5 +1,7 @@
 #include "scoring/sweep.h"
 
+#include <assert.h>
+
 #if defined __x86_64__ && defined __GNUC__
 extern const sp_sweep_set sp_sweep_avx512, sp_sweep_avx2;
 #define WIDER &sp_sweep_avx512, &sp_sweep_avx2,
@@ -35,6 +37,7 @@ static sp_rim rim_at(double angle, double beyond)
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
 {
+    assert(strength >= 0 && slack >= 0 && spray->inner >= 0); /* strength 0: nothing covers alone, of goods that move */
     sp_region region = {.fan = spray->kind == SP_PATTERN_FLAT_FAN,
                         .height = 2,
                         .alone_from = (float)((1 - slack) / strength),

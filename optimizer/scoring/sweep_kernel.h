@@ -6,6 +6,7 @@
 
 #include "scoring/sweep.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 #ifdef __SSE2__
@@ -507,6 +508,7 @@ INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_regio
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                        const sp_weight *weights, size_t weight_count, double least, double *sums)
 {
+    assert(weight_count > 0 && weight_count <= SP_WEIGHTS && view->start[SP_BINS] == view->count);
     if (region->count == SP_COUNT_SHARE)
         sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, least, sums);
     else

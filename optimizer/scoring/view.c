@@ -1,5 +1,6 @@
 #include "scoring/view.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define PART SP_SIGHTING_PART
@@ -117,6 +118,7 @@ static bool take(const sp_reach *reach, double all, sp_sightings *sightings)
                                 .arc = arrival->arc,
                                 .fails = !arrival->passes};
         cells += arrival->part < 1;
+        assert(i == 0 || part[i - 1].patch <= part[i].patch); /* patches ascend, also within a bin then */
         sightings->any_marked |= part[i].fails;
         if (i && part[i - 1].patch == part[i].patch)
             part[i - 1].twice = part[i].twice = sightings->any_marked = true;
@@ -234,6 +236,7 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
     for (size_t p = 0; p < sightings->parts; p++)
         for (size_t i = 0; i < sightings->size[p]; i++) {
             const sp_sighting *from = &sightings->part[p][i];
+            assert(from->breadth > 0 && from->part >= 0 && from->part <= 1);
             uint32_t at = next[from->bin]++;
             view->x[at] = from->x;
             view->y[at] = from->y;
@@ -249,5 +252,7 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
                 view->fails[at] = from->fails;
             }
         }
+    for (size_t b = 0; b < SP_BINS; b++)
+        assert(next[b] == start[b + 1]);
     set_angles(bins, view);
 }

@@ -3,6 +3,7 @@
 #include "mesh/grow.h"
 #include "scoring/field.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +33,7 @@ static void draw_sample(const sp_search *search, size_t *sample, sp_coverage_mat
     for (size_t i = 0; i < matrix->patch_count; i++) {
         size_t from = search->patch_count * i / matrix->patch_count,
                to = search->patch_count * (i + 1) / matrix->patch_count;
+        assert(from < to); /* every run has a patch of its own */
         sample[i] = (from + to) / 2;
         matrix->kept_hit[i] = search->kept_hit[sample[i]];
         if (matrix->kept_film)
@@ -106,6 +108,7 @@ static bool add_columns(sp_coverage_matrix *matrix, sp_error *error)
             if (matrix->film)
                 matrix->column_film[at] = matrix->film[i];
         }
+    assert(matrix->column_start[0] == 0 && matrix->column_start[matrix->patch_count] == used);
     return true;
 }
 

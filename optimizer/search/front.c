@@ -3,6 +3,7 @@
 #include "mesh/grow.h"
 #include "ranks/gather.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,6 +44,19 @@ static double by_number(const sp_front_point *point)
     return (double)point->nozzles;
 }
 
+#ifndef NDEBUG
+/* Neither more outlay (or nozzles) nor less area than the next one's. */
+static bool is_rising(const sp_front_list *list, double (*key)(const sp_front_point *))
+{
+    for (size_t i = 1; i < list->count; i++) {
+        const sp_front_point *before = &list->entries[i - 1].point, *point = &list->entries[i].point;
+        if (key(before) > key(point) * (1 + SP_ROUNDING) || before->area >= point->area)
+            return false;
+    }
+    return true;
+}
+#endif
+
 /* Enters the layout at its place by `key` unless some entry of no higher key covers as much, and drops what it betters.
  * What differs by round-off is equal. */
 static bool note(sp_front_list *list, double (*key)(const sp_front_point *), double tie, const sp_search *search,
@@ -66,6 +80,7 @@ static bool note(sp_front_list *list, double (*key)(const sp_front_point *), dou
     memmove(&list->entries[at + 1], &list->entries[end], (list->count - end) * sizeof *list->entries);
     list->entries[at] = (sp_front_entry){*point, copy};
     list->count += at + 1 - end;
+    assert(is_rising(list, key));
     return true;
 }
 

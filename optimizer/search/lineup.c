@@ -1,5 +1,6 @@
 #include "search/lineup.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,6 +78,7 @@ void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
 
 void sp_lineup_add(sp_lineup *lineup, uint32_t row)
 {
+    assert(lineup->count < SP_LINEUP_MOST && row < lineup->matrix->row_count);
     lineup->row[lineup->count++] = row;
     pour(lineup, row);
     count_covered(lineup);
@@ -86,6 +88,7 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i)
 {
     /* poured anew: what is taken from a sum leaves rounding behind */
     uint32_t rows[SP_LINEUP_MOST];
+    assert(i < lineup->count);
     memcpy(rows, lineup->row, lineup->count * sizeof *rows);
     memmove(&rows[i], &rows[i + 1], (lineup->count - i - 1) * sizeof *rows);
     sp_lineup_set(lineup, rows, lineup->count - 1);

@@ -1,5 +1,6 @@
 #include "search/walk.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define SITES 3          /* mounting points that are looked at for one nozzle, each with one variant */
@@ -34,6 +35,7 @@ static double uniform(sp_walker *walker)
 
 static size_t draw(sp_walker *walker, size_t count)
 {
+    assert(count > 0);
     return (size_t)(uniform(walker) * (double)count);
 }
 

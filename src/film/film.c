@@ -5,6 +5,7 @@
 
 #include "mesh/counting_sort.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,7 +70,10 @@ static void draw_links(sp_film *film, const sorting *s)
         double width = 0;
         for (end = i; end < s->shares->count && items[s->by_rank[end]].from == from; end++)
             width += items[s->by_rank[end]].width;
+        assert(width > 0);
         for (size_t k = i; k < end; k++) {
+            /* liquid comes to later slots alone */
+            assert(s->step_of[from] < target(film, s, items[s->by_rank[k]].to));
             size_t at = start[target(film, s, items[s->by_rank[k]].to)]++;
             film->from[at] = s->step_of[from];
             film->share[at] = items[s->by_rank[k]].width / width;
@@ -83,6 +87,7 @@ static void put_back(sp_film *film)
     size_t first = 0;
     for (size_t k = 0; k <= film->steps + ENDS; k++) {
         size_t end = (film->start[k] + 1) / 2 * 2;
+        assert(first <= end);
         film->start[k] = first;
         first = end;
     }
@@ -160,6 +165,7 @@ sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error)
     sp_film_basins basins = {0};
     sp_film_shares shares = {0};
     uint32_t *ends = NULL;
+    assert(fabs(sp_length(surface->down) - 1) < 1e-6);
     bool done = film && sp_film_links_create(surface, &links, error) && sp_film_drips_find(surface, &links, error) &&
                 (ends = sp_film_ends_find(surface, &links, error)) &&
                 sp_film_order_create(surface, &links, ends, &order, error) &&

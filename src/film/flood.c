@@ -5,6 +5,7 @@
 #include "mesh/disjoint_sets.h"
 #include "mesh/heap.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,6 +105,7 @@ static void count_waits(flood *own)
 
 static uint64_t key_of(const flood *own, uint32_t cell)
 {
+    assert(own->level[cell] >> 31 == 0);
     return (uint64_t)own->level[cell] << 33 | (uint64_t)own->order->sunk[cell] << 32 | cell;
 }
 
@@ -146,6 +148,7 @@ static bool settle(flood *own, uint32_t cell, uint32_t *rank)
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
         uint32_t other = links->to[k];
+        assert(own->way[k] != FROM || own->waits[other] > 0);
         bool ready = own->way[k] == FROM && --own->waits[other] == 0;
         if (own->state[other] == LATE && ready)
             done = sp_heap_push(&own->heap, key_of(own, other));
@@ -215,6 +218,7 @@ static bool hold_rest(flood *own, uint32_t rank)
         done = reach(own, lowest, SP_NONE, own->height[lowest]) && spread(own, &rank);
     }
     free(rising);
+    assert(!done || rank == own->links->count); /* every cell has its own */
     return done;
 }
 

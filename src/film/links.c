@@ -3,6 +3,7 @@
 #include "atlas/texels/borders.h"
 #include "mesh/grow.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,7 @@ static void take_end(sp_film_links *links, uint32_t cell, double across, double 
 /* Joins a piece with one of the same border that came shortly before, as most do. */
 static bool take_piece(gathering *own, piece met)
 {
+    assert(met.cell[0] != met.cell[1] && met.length >= 0);
     if (met.cell[0] > met.cell[1])
         met = (piece){{met.cell[1], met.cell[0]}, {met.across[1], met.across[0]}, met.length};
     uint32_t *recent = &own->recent[(met.cell[0] * 31 + met.cell[1]) % RECENT];
@@ -155,6 +157,7 @@ static way *list_ways(const gathering *own)
 static size_t take_way(sp_film_links *links, size_t first, size_t end, const way *way)
 {
     size_t at = end;
+    assert(end - first < 2 || links->to[end - 2] < links->to[end - 1]);
     while (at > first && links->to[at - 1] >= way->to)
         at--;
     if (at < end && links->to[at] == way->to) {
@@ -185,6 +188,7 @@ static bool join(const gathering *own)
             end = take_way(links, first, end, &ways[at]);
         links->start[i] = first;
     }
+    assert(end <= 2 * own->count);
     links->start[links->count] = end;
     free(ways);
     return done;

@@ -2,6 +2,7 @@
 
 #include "mesh/disjoint_sets.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* True where something of what runs on the cell leaves it to where liquid goes from there. */
@@ -44,6 +45,8 @@ bool sp_film_basins_create(const sp_film_surface *surface, const sp_film_links *
     }
     for (uint32_t i = 0; done && i < count; i++)
         basins->of[i] = first[sp_set_root(sets, i)];
+    for (uint32_t i = 0; done && i < count; i++)
+        assert(order->rank[basins->of[i]] <= order->rank[i] && basins->of[basins->of[i]] == basins->of[i]);
     free(sets);
     free(first);
     if (done)

@@ -2,6 +2,7 @@
 
 #include "mesh/grow.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -18,6 +19,8 @@ typedef struct {
 static bool add(sharing *own, uint32_t from, uint32_t to, double width)
 {
     sp_film_shares *shares = own->shares;
+    assert(width > 0 && own->basins->of[from] == from);
+    assert(!sp_film_is_cell(to) || own->order->rank[to] < own->order->rank[from]); /* nothing runs in a circle */
     if (!sp_grow(&shares->items, &shares->capacity, shares->count + 1, sizeof *shares->items))
         return false;
     shares->items[shares->count++] = (sp_film_share){from, to, width};

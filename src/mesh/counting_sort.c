@@ -1,5 +1,6 @@
 #include "mesh/counting_sort.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,8 +10,10 @@ bool sp_counting_sort(uint32_t *order, size_t count, const uint32_t *keys, size_
     uint32_t *sorted = malloc((count + 1) * sizeof *sorted);
     bool good = start && sorted;
     if (good) {
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < count; i++) {
+            assert(keys[i] < key_count);
             start[keys[i] + 1]++;
+        }
         for (size_t key = 0; key < key_count; key++)
             start[key + 1] += start[key];
         for (size_t i = 0; i < count; i++)

@@ -2,6 +2,7 @@
 #ifndef MESH_DISJOINT_SETS_H
 #define MESH_DISJOINT_SETS_H
 
+#include <assert.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -9,6 +10,7 @@
 static inline uint32_t sp_set_root(uint32_t *parent, uint32_t node)
 {
     while (parent[node] != node) {
+        assert(parent[node] < node);
         parent[node] = parent[parent[node]];
         node = parent[node];
     }

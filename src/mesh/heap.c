@@ -1,5 +1,6 @@
 #include "mesh/heap.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 bool sp_heap_push(sp_heap *heap, uint64_t key)
@@ -21,6 +22,7 @@ bool sp_heap_push(sp_heap *heap, uint64_t key)
 
 uint64_t sp_heap_pop(sp_heap *heap)
 {
+    assert(heap->count > 0 && heap->count <= heap->capacity);
     uint64_t top = heap->keys[0], last = heap->keys[--heap->count];
     size_t at = 0;
     for (size_t child; (child = 2 * at + 1) < heap->count; at = child) {
@@ -31,5 +33,6 @@ uint64_t sp_heap_pop(sp_heap *heap)
         heap->keys[at] = heap->keys[child];
     }
     heap->keys[at] = last;
+    assert(top <= heap->keys[0]);
     return top;
 }

@@ -1,5 +1,6 @@
 #include "mesh/allocate.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -116,6 +117,7 @@ static sp_mesh *concatenate(sp_mesh *const *meshes, size_t count, sp_error *erro
         sources += meshes[i]->source_triangle_count;
         parts += meshes[i]->part_count;
     }
+    assert(!joined || joined->vertex_count == vertices);
     return joined;
 }
 

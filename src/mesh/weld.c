@@ -1,5 +1,6 @@
 #include "mesh/weld.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 uint32_t *sp_weld_slot(const sp_weld_table *table, const sp_vec3 *vertices, sp_vec3 point)
 {
+    assert(table->size && (table->size & (table->size - 1)) == 0);
     size_t mask = table->size - 1, slot = sp_siphash(table->key, &point, sizeof point) & mask;
     while (table->slots[slot] != SP_NONE && !equal(vertices[table->slots[slot]], point))
         slot = (slot + 1) & mask;
@@ -31,6 +33,7 @@ bool sp_weld_reserve(sp_weld_table *table, size_t capacity, const sp_vec3 *verti
     if (!table->slots)
         return false;
     memset(table->slots, 0xFF, size * sizeof *table->slots);
+    assert(count <= capacity); /* a search ends at a free slot */
     for (size_t i = 0; i < count; i++)
         *sp_weld_slot(table, vertices, vertices[i]) = (uint32_t)i;
     return true;

@@ -1,10 +1,13 @@
 /* What leaves a nozzle: how much, how fast, how wide. A nozzle's own settings go before those of its type. */
 #include <sprayplan/nozzle.h>
 
+#include <assert.h>
+
 static const double water_density = 1000; /* kg/m³; catalogues print the flow of water */
 
 double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid)
 {
+    assert(pressure >= 0 && type->at > 0 && liquid->density > 0);
     return rated_flow * pow(pressure / type->at, type->exponent) * sqrt(water_density / liquid->density);
 }
 

@@ -1,6 +1,8 @@
 /* How a nozzle points: its own axes in world coordinates. */
 #include <sprayplan/nozzle.h>
 
+#include <assert.h>
+
 static const double vertical = 1e-6; /* rad; nearer to `up` than this its direction says nothing about x */
 
 sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up)
@@ -13,5 +15,6 @@ sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up)
     double c = cos(roll), s = sin(roll);
     frame.x = sp_along(sp_scale(x, c), s, y);
     frame.y = sp_along(sp_scale(y, c), -s, x);
+    assert(fabs(sp_dot(frame.x, frame.z)) < 1e-6 && fabs(sp_length(frame.y) - 1) < 1e-6);
     return frame;
 }

@@ -7,6 +7,8 @@
 #include "caps.h"
 #include "turned.h"
 
+#include <assert.h>
+
 /* Gauss and Legendre's abscissae and weights, 16 points on [-1, 1]. */
 static const double gauss[8][2] = {
     {0.98940093499164994, 0.027152459411754095}, {0.9445750230732326, 0.062253523938647893},
@@ -18,6 +20,7 @@ static const double gauss[8][2] = {
 /* The integral over a full cone, of the share within the polar angle (up to π/2) or of the density there. */
 static double integrate(double outer, double polar, bool density)
 {
+    assert(outer > 0 && outer < M_PI / 2 && polar >= 0 && polar <= M_PI / 2);
     double edge = sin(outer), sine = sin(polar), most = fmin(edge, sine), sum = 0;
     for (int i = 0; i < 16; i++) {
         double x = i < 8 ? gauss[i][0] : -gauss[i - 8][0], turn = 0.25 * M_PI * (1 + x);

@@ -1,6 +1,7 @@
 /* Images with speeds: their liquid in layers of one speed each, which are patterns on top of one another. */
 #include "patternation.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define FASTEST 10.0 /* of the exit speed */
@@ -36,6 +37,7 @@ static bool find_range(const layering *image, double *slowest, double *fastest, 
 /* From the slowest to the fastest in equal proportions. */
 static void set_speeds(layering *image, double slowest, double fastest)
 {
+    assert(slowest > 0 && slowest <= fastest);
     double steps = ceil(log(fastest / slowest) / log(STEP) - 1e-9);
     image->count = (size_t)fmin(SP_SPEEDS, fmax(1, steps + 1));
     for (size_t k = 0; k < image->count; k++)
@@ -82,6 +84,7 @@ static size_t lay_all(const layering *image, float *room, sp_speed_layer *layers
     }
     for (size_t k = 0; k < kept; k++)
         all += layers[k].patternation->liquid;
+    assert(kept == 0 || all > 0);
     for (size_t k = 0; k < kept; k++)
         layers[k].share = layers[k].patternation->liquid / all;
     return kept;

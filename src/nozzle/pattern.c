@@ -3,6 +3,8 @@
 #include "patternation.h"
 #include "turned.h"
 
+#include <assert.h>
+
 #define THINNEST 1e-6 /* rad, half of a jet that turns: of thinner ones the solid angle is round-off in a cap's */
 
 /* 1 - cos(angle) without cancellation. */
@@ -43,6 +45,7 @@ void sp_spray_settle(sp_spray *spray)
     bool turns = spray->kind == SP_PATTERN_ROTATING, fan = (turns ? spray->jet : spray->kind) == SP_PATTERN_FLAT_FAN;
     spray->solid_angle =
         fan ? 4 * spray->half_width * spray->height : 2 * M_PI * (versine(spray->outer) - versine(spray->inner));
+    assert(spray->solid_angle >= 0 && spray->inner <= spray->outer); /* 0: of a cluster, whose members spray */
     if (turns)
         sp_turned_settle(spray);
 }

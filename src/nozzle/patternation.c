@@ -3,6 +3,7 @@
 
 #include "caps.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define NARROWEST 1e-6 /* rad */
@@ -116,9 +117,11 @@ sp_patternation *sp_patternation_create(const float *values, size_t columns, siz
     }
     set_nodes(own, values, angle);
     own->liquid = integrate(own);
+    assert(own->liquid > 0);
     for (size_t i = 0; i < own->rows * columns; i++)
         own->node[i] /= own->liquid;
     sum_up(own);
+    assert(fabs(own->within[own->rows - 1] - 1) < 1e-9); /* all leaves within the last row */
     find_ends(own);
     if (sp_pattern_maps_create(own))
         return own;

@@ -4,6 +4,8 @@
 #include "scramble.h"
 #include "turned.h"
 
+#include <assert.h>
+
 /* Point i of the golden lattice (i/n, i φ mod 1) under a shift drawn from the seed (Cranley and Patterson 1976). φ is
  * the number worst approximated by fractions, so the lattice stays even however the rectangle is stretched: a thin fan
  * is filled as evenly as a cone. i φ is taken in integers: no digit is lost for large i. */
@@ -17,6 +19,7 @@ static void lattice(uint64_t i, uint64_t n, uint64_t seed, double *u, double *w)
 sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64_t seed)
 {
     double u, w;
+    assert(i < n);
     lattice(i, n, seed, &u, &w);
     if (spray->kind == SP_PATTERN_ROTATING) {
         double polar = sp_turned_polar(spray, u), azimuth = 2 * M_PI * w;

@@ -7,6 +7,8 @@
 #include "patternation.h"
 #include "turned.h"
 
+#include <assert.h>
+
 #define FINEST 1e-6    /* rad, of a breadth: the liquid of a thinner ring is round-off, and its middle tells as much */
 #define ROUND_OFF 1e-6 /* share that all lacks */
 /* 0 to 1, with two even derivatives at either end (Perlin, Improving noise, 2002): what is left of a lattice's own
@@ -115,6 +117,7 @@ double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
 
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
+    assert(breadth >= 0 && fabs(sp_dot(direction, direction) - 1) < 1e-6);
     double share = spray->kind == SP_PATTERN_ROTATING   ? ring_share(spray, frame, direction, breadth)
                    : spray->kind == SP_PATTERN_MEASURED ? mean_of(spray, frame, direction, breadth).wet
                    : spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)

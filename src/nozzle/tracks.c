@@ -3,6 +3,8 @@
  * for each jet and sign, whatever the order in which they are drawn. */
 #include <sprayplan/tracks.h>
 
+#include <assert.h>
+
 static unsigned common_divisor(unsigned a, unsigned b)
 {
     while (b) {
@@ -15,6 +17,7 @@ static unsigned common_divisor(unsigned a, unsigned b)
 
 unsigned sp_track_turns(const sp_rotation *rotation)
 {
+    assert(rotation->gears[0] > 0 && rotation->gears[1] > 0);
     return rotation->gears[1] / common_divisor(rotation->gears[0], rotation->gears[1]);
 }
 

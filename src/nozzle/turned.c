@@ -5,6 +5,8 @@
 
 #include "caps.h"
 
+#include <assert.h>
+
 #define STEPS_MOST 60   /* each at least halves where the angle may be */
 #define PRECISION 1e-13 /* rad */
 
@@ -29,6 +31,7 @@ void sp_turned_settle(sp_spray *spray)
     sp_spray jet = sp_turned_jet(spray);
     spray->low = fmax(0, -sp_spray_margin(&jet, spray->spindle));
     spray->high = M_PI - fmax(0, -sp_spray_margin(&jet, sp_scale(spray->spindle, -1)));
+    assert(spray->low < spray->high);
 }
 
 static double cone_density(const sp_spray *spray, double polar)
@@ -113,6 +116,7 @@ void sp_turned_densities(const sp_spray *spray, double from, double to, double *
 double sp_turned_polar(const sp_spray *spray, double share)
 {
     double low = spray->low, high = spray->high, polar = low + share * (high - low);
+    assert(share >= 0 && share <= 1);
     for (int i = 0; i < STEPS_MOST && high - low > PRECISION; i++) {
         double more = sp_spray_within(spray, polar) - share;
         *(more > 0 ? &high : &low) = polar;

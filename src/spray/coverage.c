@@ -2,6 +2,7 @@
 #include "bodies.h"
 #include "rundown.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
@@ -133,6 +134,7 @@ static bool draw_flux_figures(const sp_patches *patches, sp_coverage *coverage, 
     qsort(shares, count, sizeof *shares, by_flux);
     while (rank + 1 < count && below + shares[rank].area < share * patches->total_area)
         below += shares[rank++].area;
+    assert(count > 0 && shares[0].flux >= 0);
     coverage->flux_min = shares[0].flux;
     coverage->flux_p05 = shares[rank].flux;
     coverage->flux_mean = liquid / patches->total_area;
@@ -159,6 +161,7 @@ void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage)
             deposits->by_film[i] = deposits->share[i] < 0.5;
             deposits->share[i] = 1;
         }
+        assert(deposits->share[i] >= 0 && deposits->share[i] <= 1);
         deposits->covered[i] = deposits->share[i] >= 0.5;
         coverage->covered_area += deposits->share[i] * area;
     }

@@ -2,6 +2,7 @@
 
 #include "film/laminar.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* How much of the cell lies in the disc about the middle, as area; at the edge as if it were a square across the way
@@ -32,6 +33,7 @@ static void spread(sp_discs *own, double radius, uint32_t middle, double flow, d
             own->share[count++] = part;
             all += part;
         }
+    assert(all > 0 && count <= cells->count);
     for (size_t i = 0; i < count; i++)
         arriving[own->queue[i]] += flow * own->share[i] / all;
 }
@@ -57,6 +59,7 @@ void sp_discs_free(sp_discs *discs)
 void sp_discs_add(sp_discs *discs, const sp_fluid *liquid, double flow, const double *hits, double *arriving)
 {
     double radius = sp_film_jet_radius(liquid, flow);
+    assert(radius > 0);
     for (uint32_t i = 0; i < discs->cells->count; i++)
         if (hits[i] != 0)
             spread(discs, radius, i, hits[i], arriving);

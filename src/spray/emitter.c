@@ -1,5 +1,7 @@
 #include "emitter.h"
 
+#include <assert.h>
+
 /* How long nothing stops a jet, as on which side of the wall it stands in a nozzle is, is round-off: until it has gone
  * off it by its speed or, where that is slow, by falling. */
 static double time_in_mouth(const sp_source *source)
@@ -46,6 +48,7 @@ double sp_emitter_flux(const sp_emitter *emitter, double flow, const sp_arrival 
 {
     const sp_spray *spray = &emitter->spray;
     const sp_frame *frame = &emitter->frame;
+    assert(flow > 0 && spray->solid_angle > 0 && arrival->transfer >= 0);
     if (sp_spray_is_uniform(spray))
         return flow / spray->solid_angle * arrival->transfer;
     double density = share > 0 ? sp_spray_density(spray, frame, arrival->direction, arrival->breadth) / share

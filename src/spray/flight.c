@@ -6,6 +6,8 @@
 
 #include <sprayplan/flight.h>
 
+#include <assert.h>
+
 /* What the flights between two points have in common. */
 typedef struct {
     sp_vec3 r, gravity;
@@ -41,6 +43,7 @@ static sp_flight line(const span *s)
 
 static sp_flight parabola(const span *s, double squared_time)
 {
+    assert(squared_time > 0 && s->root > 0);
     sp_flight flight = {.time = sqrt(squared_time), .spread = s->speed * squared_time * s->root};
     flight.direction = sp_unit(sp_along(s->r, -0.5 * squared_time, s->gravity));
     flight.velocity = sp_along(sp_scale(flight.direction, s->speed), flight.time, s->gravity);
@@ -78,6 +81,7 @@ bool sp_flight_on_arc(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, i
  * both, the area across the flight per solid angle, spread over arriving speed. */
 double sp_flight_breadth(const sp_flight *flight, double length)
 {
+    assert(length >= 0 && flight->lever > 0 && flight->spread > 0);
     double lever = flight->lever, across = 1 / lever;
     double along = sp_length(flight->velocity) / flight->spread * lever;
     return fmin(length * fmax(across, along), SP_BREADTH_MOST);

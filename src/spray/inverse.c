@@ -4,6 +4,7 @@
 
 #include "bodies.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* All arrivals of one pattern at one patch, `first` to `end`. */
@@ -17,6 +18,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
         double share = sp_emitter_share(emitter, arrival), flux = sp_emitter_flux(emitter, flow, arrival, share);
         double mean = fmin(arrival->part * share * flux, left);
+        assert(mean >= 0 && share <= 1);
         left -= mean;
         if (share > 0)
             sp_deposit(tally->deposits, first->patch, mean, arrival->part, arrival->speed, arrival->incidence,

@@ -3,6 +3,7 @@
 #include "spray/drag/chain.h"
 #include "spray/state/state.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define DROP_LEAST 1e-9 /* m */
@@ -39,6 +40,7 @@ sp_launch_table *sp_launch_table_create(const sp_evaluator *evaluator, double fa
     sp_launch_table *table = calloc(1, sizeof *table);
     if (!table)
         return sp_fail_memory(error);
+    assert(far >= 0 && isfinite(far));
     *table = (sp_launch_table){.evaluator = evaluator, .far = far};
     return table;
 }

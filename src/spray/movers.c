@@ -1,5 +1,6 @@
 #include "movers.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* The triangles that stand, or those that move, as a mesh of the same parts. */
@@ -40,8 +41,11 @@ sp_movers *sp_movers_create(const sp_setup *setup, sp_error *error)
         return sp_fail_memory(error);
     movers->own = malloc((setup->mesh->triangle_count + 1) * sizeof *movers->own);
     if ((movers->own || sp_fail_memory(error)) && take(setup, SP_STANDING, movers, error) &&
-        take(setup, SP_MOVING, movers, error))
+        take(setup, SP_MOVING, movers, error)) {
+        assert(movers->mesh[SP_STANDING]->triangle_count + movers->mesh[SP_MOVING]->triangle_count ==
+               setup->mesh->triangle_count); /* each is in one of them */
         return movers;
+    }
     sp_movers_destroy(movers);
     return NULL;
 }

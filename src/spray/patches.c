@@ -2,6 +2,7 @@
 #include "middle.h"
 #include "spray/state/state.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Where one patch is judged, and how large it is. */
@@ -68,6 +69,7 @@ static bool order_fragments(const sp_atlas *atlas, sp_fragments *fragments)
 {
     size_t most = 0;
     for (size_t texel = 0; texel < atlas->texel_count; texel++) {
+        assert(fragments->start[texel] <= fragments->start[texel + 1]);
         size_t count = fragments->start[texel + 1] - fragments->start[texel];
         most = count > most ? count : most;
     }
@@ -132,6 +134,7 @@ static void number_patches(sp_evaluator *evaluator, patch_place (*places)[2])
             sp_vec3 normal = sp_triangle_normal(evaluator->setup.mesh, place->triangle);
             patches->texel[patch] = (uint32_t)texel;
             patches->side[patch] = !sided ? SP_SIDE_BOTH : side ? SP_SIDE_BACK : SP_SIDE_FRONT;
+            assert(patch < patches->count && place->area > 0);
             patches->area[patch] = place->area;
             patches->point[patch] = place->point;
             patches->normal[patch] = side ? sp_scale(normal, -1) : normal;

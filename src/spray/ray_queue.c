@@ -4,6 +4,7 @@
 #include "near.h"
 #include "spray/drag/fronts.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 bool sp_ray_queue_make_room(sp_ray_queue *queue, size_t more)
@@ -54,6 +55,7 @@ bool sp_way_is_traced(const sp_evaluator *evaluator, const sp_aim *aim, double p
 static void look_along(const sp_gathering *own, const sp_target *target, const sp_flight *way)
 {
     sp_ray_queue *queue = own->queue;
+    assert(queue->ray_count < queue->count && queue->count <= queue->capacity);
     queue->passing[queue->ray_count] = (sp_passing_ray){own->position, target->triangle};
     queue->rays[queue->ray_count] = sp_flight_ray(&own->source, target, way);
     queue->rays[queue->ray_count].origin = sp_add(own->source.position, own->offset);
@@ -79,6 +81,7 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
     if (!sp_ray_queue_make_room(queue, 2))
         return;
     queue->places++;
+    assert(count <= 2 && part >= 0 && part <= 1 + 1e-9);
     for (int k = 0; k < count; k++) {
         sp_arrival *arrival = &queue->arrivals[queue->count];
         size_t bit = 2 * (size_t)own->patch + (size_t)k;
@@ -97,6 +100,7 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
         arrival->blocked = !(clear > 0);
         if (arrival->blocked && !aim->blocked)
             continue;
+        assert(clear <= 1 && arrival->breadth > 0);
         arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
         arrival->part = arrival->blocked ? part : part * clear;

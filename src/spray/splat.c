@@ -1,5 +1,6 @@
 #include "splat.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* Adds a share in proportion to the patch's area, unless that texel has no patch on the side that was hit, or
@@ -12,6 +13,7 @@ static void add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, 
         known = known || shares->patch[i] == patch;
     if (known)
         return;
+    assert(shares->count < SP_SPLAT_CORNERS * SP_SPLAT_SIDES && weight >= 0);
     shares->patch[shares->count] = patch;
     shares->share[shares->count++] = weight * evaluator->patches.area[patch];
 }

@@ -1,5 +1,6 @@
 #include "tally.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 static bool is_single(const sp_tally *tally)
@@ -29,6 +30,7 @@ void sp_tally_free(sp_tally *tally)
 void sp_tally_add(sp_tally *tally, uint32_t patch, double counted, const sp_wetting *wetting)
 {
     sp_wetting settled = sp_wetting_settle(*wetting, tally->evaluator->setup.criterion.flux);
+    assert(counted >= 0 && settled.even >= 0 && settled.dry >= 0 && settled.dry <= 1);
     tally->counted[patch] += counted;
     tally->even[patch] += settled.even;
     tally->deposits->dry[patch] *= settled.dry;

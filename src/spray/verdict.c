@@ -2,6 +2,7 @@
 #include "dose.h"
 #include "reference.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +54,7 @@ static void gather(const sp_emitter *emitter, double flow, const sp_point *point
         if (source->fronts ? sp_flight_is_blocked(source, &target, &ways[k])
                            : sp_flight_pierces(source, &target, &ways[k]))
             continue;
+        assert(f->count < 2 * CHUNK);
         f->blocked[f->count] = false;
         f->point[f->count] = index;
         f->flux[f->count] = sp_emitter_flux(emitter, flow, &arrival, 0);

@@ -10,6 +10,7 @@
 #include "atlas/charts/renumber.h"
 #include "mesh/adjacent.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +54,7 @@ static bool write_charts(const sp_making *m, const uint32_t *old, sp_charts *cha
     for (size_t t = 0; t < charts->triangle_count; t++) {
         uint32_t owner = m->sheets.owner[t];
         const sp_sheet *sheet = &m->sheets.items[owner];
+        assert(owner < m->sheets.count && m->sheets.local[t] < sheet->triangle_count);
         size_t as = old ? old[t] : t;
         charts->chart[as] = owner;
         for (int i = 0; i < 3; i++)

@@ -1,5 +1,6 @@
 #include "atlas/charts/renumber.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Lists the triangles in `old`, and gives them their numbers. */
@@ -23,6 +24,7 @@ static void list_triangles(size_t count, const uint32_t *twin, uint32_t *number,
                 old[listed++] = other;
             }
     }
+    assert(listed == count);
 }
 
 /* Vertices are numbered as triangles come to them; those of no triangle are left out. */

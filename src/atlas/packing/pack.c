@@ -3,6 +3,7 @@
 #include "atlas/packing/nest.h"
 #include "atlas/packing/skyline.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -27,6 +28,8 @@ static bool pack_boxes(const sp_shape *shapes, size_t count, uint32_t limit, sp_
 static void place_point(const sp_shape *shape, const sp_spot *spot, const double point[2], bool whole, double uv[2])
 {
     double width = shape->width, height = shape->height;
+    /* off the frame by round-off alone */
+    assert(point[0] > -1 && point[0] < width + 1 && point[1] > -1 && point[1] < height + 1);
     double x = fmin(fmax(point[0], 0), width), y = fmin(fmax(point[1], 0), height);
     const double turned[4][2] = {{x, y}, {height - y, x}, {width - x, height - y}, {y, width - x}};
     const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};

@@ -4,6 +4,7 @@
 #include "atlas/texels/raster.h"
 #include "mesh/lesser.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -71,6 +72,7 @@ static void list_members(const sp_charts *charts, uint32_t *start, uint32_t *mem
         start[c] += start[c - 1];
     for (size_t t = charts->triangle_count; t-- > 0;)
         members[--start[charts->chart[t]]] = (uint32_t)t;
+    assert(start[0] == 0 && start[charts->chart_count] == charts->triangle_count);
 }
 
 typedef struct {

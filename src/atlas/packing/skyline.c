@@ -4,6 +4,7 @@
 
 #include "mesh/order.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,6 +67,20 @@ static size_t find_place(const skyline *line, uint32_t edge, uint32_t width, uin
     return best;
 }
 
+#ifndef NDEBUG
+/* Steps lie side by side over the whole width. */
+static bool is_whole(const skyline *line, uint32_t edge)
+{
+    uint32_t x = 0;
+    for (size_t i = 0; i < line->count; i++) {
+        if (line->steps[i].x != x || !line->steps[i].width)
+            return false;
+        x += line->steps[i].width;
+    }
+    return x == edge && line->count <= line->capacity;
+}
+#endif
+
 /* Raises the skyline to `top` over `width` from the beginning of step `at`. */
 static bool raise(skyline *line, size_t at, uint32_t width, uint32_t top)
 {
@@ -104,12 +119,14 @@ static bool place(pages *p, sp_rectangle *r)
         if (page == p->count && !add_page(p))
             return false;
         skyline *line = &p->pages[page];
+        assert(is_whole(line, p->edge));
         size_t at = find_place(line, p->edge, r->width + 1, r->height + 1, &y);
         if (at == SIZE_MAX)
             continue;
         r->page = (uint32_t)page;
         r->x = line->steps[at].x;
         r->y = y;
+        assert(r->x + r->width < p->edge && r->y + r->height < p->edge);
         return raise(line, at, r->width + 1, y + r->height + 1);
     }
 }
@@ -137,6 +154,7 @@ static uint32_t least_edge(const sp_rectangle *rectangles, size_t count, uint32_
     double area = 0;
     uint32_t widest = 1;
     for (size_t i = 0; i < count; i++) {
+        assert(rectangles[i].width <= limit && rectangles[i].height <= limit); /* or no page would do */
         area += (rectangles[i].width + 1.0) * (rectangles[i].height + 1.0);
         uint32_t side = rectangles[i].width > rectangles[i].height ? rectangles[i].width : rectangles[i].height;
         widest = side > widest ? side : widest;

@@ -1,6 +1,7 @@
 /* Which triangles each texel consists of. */
 #include "atlas/texels/texels.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Counts the fragments of every texel, or with `items` places them; start[i] is where the next one of texel i goes. */
@@ -36,6 +37,7 @@ bool sp_fragments_create(sp_fragments *fragments, const sp_atlas *atlas, const s
     if (done && fits) {
         fragments->items = malloc((sum + 1) * sizeof *fragments->items);
         done = fragments->items && visit(atlas, mesh, &pieces, start, fragments->items);
+        assert(!done || !atlas->texel_count || start[atlas->texel_count - 1] == sum);
         for (size_t i = atlas->texel_count; i > 0; i--) /* filling moved each start to the next one's */
             start[i] = start[i - 1];
         start[0] = 0;

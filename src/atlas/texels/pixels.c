@@ -2,6 +2,7 @@
 #include "mesh/bits.h"
 #include "atlas/texels/texels.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 static bool paint(const sp_atlas *atlas, uint64_t *bits, size_t row_words, sp_raster *raster)
@@ -26,6 +27,7 @@ static void list_runs(sp_atlas *atlas, const uint64_t *bits, size_t row_words, s
         atlas->row_start[row] = (uint32_t)atlas->run_count;
         for (size_t x = 0, end; (x = sp_bits_find(at, x, edge, true)) < edge; x = end) {
             end = sp_bits_find(at, x, edge, false);
+            assert(end - x <= UINT16_MAX);
             if (atlas->runs)
                 atlas->runs[atlas->run_count] = (sp_texel_run){.texel = (uint32_t)*pixels,
                                                                .row = (uint32_t)row,

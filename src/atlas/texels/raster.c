@@ -4,6 +4,7 @@
 #include "atlas/texels/raster.h"
 #include "mesh/lesser.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +29,7 @@ bool sp_raster_begin(sp_raster *raster, const double uv[3][2], sp_raster_kind ki
         low[k] = floor(sp_lesser(uv[0][k], sp_lesser(uv[1][k], uv[2][k])) - slack);
         for (int i = 0; i < 3; i++)
             raster->corner[i][k] = uv[i][k] - low[k]; /* loses nothing */
+        assert(low[k] >= 0);
         high[k] = sp_greater(raster->corner[0][k], sp_greater(raster->corner[1][k], raster->corner[2][k]));
     }
     double(*c)[2] = raster->corner;
@@ -184,6 +186,7 @@ static bool take_row(sp_raster *raster, uint32_t row)
     raster->y = raster->base_y + row;
     raster->x = raster->base_x + (uint32_t)first;
     raster->count = (uint32_t)(end - first);
+    assert(first >= 0 && first < end && end <= raster->columns);
     if (raster->kind == SP_RASTER_AREAS)
         measure(raster, &s, (uint32_t)first, (uint32_t)end);
     return true;

@@ -2,6 +2,7 @@
 #include "mesh/order.h"
 #include "atlas/texels/texels.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -64,6 +65,7 @@ bool sp_edge_walk_next(sp_edge_walk *walk, const sp_atlas *atlas)
     walk->from = walk->to;
     double next_a = walk->crossings[0].items[walk->at_a], next_b = walk->crossings[1].items[walk->at_b];
     walk->to = fmin(next_a, next_b);
+    assert(walk->from <= walk->to);
     walk->at_a += next_a <= next_b;
     walk->at_b += next_b <= next_a;
     double middle = 0.5 * (walk->from + walk->to);
@@ -125,6 +127,7 @@ static bool collect(sp_atlas *atlas, const seams *s)
     float longest = 0;
     for (size_t i = 0; done && i < 2 * s->count; i++) {
         sp_seam piece = seam_at(s, order[i]), *last = count ? &atlas->seams[count - 1] : NULL;
+        assert(!last || last->texel < piece.texel || (last->texel == piece.texel && last->other <= piece.other));
         if (!last || last->texel != piece.texel || last->other != piece.other) {
             atlas->seams[count++] = piece;
             longest = piece.length;

@@ -7,6 +7,7 @@
 #include "atlas/texels/texels.h"
 #include "mesh/lesser.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -206,6 +207,7 @@ static void number(group *g, sp_atlas *atlas)
         if (g->root[i] == i && g->area[i] > g->area[largest])
             largest = i;
     g->texel[largest] = pixel;
+    assert(!atlas->shared_count || atlas->shared[atlas->shared_count - 1].pixel < pixel);
     for (uint32_t i = 0; i < g->count; i++)
         if (g->root[i] == i && i != largest) {
             g->texel[i] = (uint32_t)atlas->texel_count;

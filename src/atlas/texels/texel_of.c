@@ -2,6 +2,7 @@
 #include "atlas/texels/texels.h"
 #include "mesh/lesser.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -69,6 +70,7 @@ uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_r
 {
     size_t row = (size_t)atlas->chart_page[atlas->chart[triangle]] * atlas->page_edge + raster->y;
     const sp_texel_run *run = sp_atlas_run(atlas, row, raster->x);
+    assert(run); /* what a triangle covers was painted */
     return run->texel + (raster->x - run->x);
 }
 
@@ -108,11 +110,13 @@ uint32_t sp_atlas_texel(const sp_atlas *atlas, uint32_t triangle, double u, doub
         pixel = sp_atlas_pixel(atlas, atlas->chart_page[atlas->chart[triangle]], (uint32_t)x, (uint32_t)y);
     if (pixel == SP_NONE)
         pixel = nearest_own(atlas, triangle, x, y);
+    assert(pixel < atlas->pixel_count);
     return atlas->shared_count ? sp_atlas_resolve(atlas, pixel, triangle) : pixel;
 }
 
 sp_texel_place sp_atlas_place(const sp_atlas *atlas, uint32_t texel)
 {
+    assert(texel < atlas->texel_count);
     uint32_t pixel = texel < atlas->pixel_count ? texel : atlas->behind[texel - atlas->pixel_count];
     size_t low = 0, high = atlas->run_count;
     while (high - low > 1) {

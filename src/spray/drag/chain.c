@@ -1,5 +1,7 @@
 #include "chain.h"
 
+#include <assert.h>
+
 #define JOINED 0.1     /* of a piece: a last one shorter than that belongs to the one before */
 #define MARCH 1e-6     /* the error of a leg */
 #define STRAIGHT 2e-5  /* of how far a drop has come, that a piece may miss its parabola by */
@@ -44,6 +46,7 @@ bool sp_chain_next(sp_chain *chain, sp_piece *piece)
     double start = joints[i], end = i + 1 < fronts->joint_count ? joints[i + 1] : INFINITY;
     piece->last = !(end < chain->time - JOINED * (end - start));
     end = piece->last ? chain->time : end;
+    assert(start < end);
     sp_vec3 place[3] = {chain->at, place_at(chain, 0.5 * (start + end)), place_at(chain, end)};
     piece->ray = sp_parabola_through(place, end - start, &piece->pull);
     if (!piece->last)

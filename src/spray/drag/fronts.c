@@ -1,6 +1,7 @@
 /* The table of fronts: drops that leave at Chebyshev's elevations are flown side by side, in common steps. */
 #include "fronts.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,6 +102,7 @@ static bool record(sp_fronts *fronts, const drops *drops, double time, double st
     }
     fronts->terms[fronts->count] = terms_needed(sum, drops->count, step, CUT);
     fronts->rough[fronts->count] = terms_needed(sum, drops->count, step, CUT_ROUGH);
+    assert(fronts->count == 0 || time >= fronts->time[fronts->count - 1]);
     fronts->time[fronts->count++] = time;
     return true;
 }
@@ -259,6 +261,7 @@ static bool find_joints(sp_fronts *fronts)
         double parts = fmin(fmax(ceil(cbrt(misses(fronts, before, now) / JOINT)), 1), PARTS_MOST - 1);
         for (int k = 1; k < parts; k++)
             joints[fronts->joint_count++] = last = before + k / parts * (now - before);
+        assert(last < now && fronts->joint_count <= (i + 1) * PARTS_MOST);
     }
     return true;
 }

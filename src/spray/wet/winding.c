@@ -4,6 +4,7 @@
  * twice. */
 #include "spray/wet/winding.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define MOST_BINS 1024 /* along either axis of the plane */
@@ -178,6 +179,8 @@ sp_winding *sp_winding_create(const sp_mesh *mesh, const sp_shells *shells, sp_e
         return sp_fail_memory(error);
     }
     fill_bins(winding, false);
+    /* what was counted was filled in */
+    assert(winding->start[bins - 1] == winding->start[bins]);
     for (size_t i = bins; i > 0; i--) /* filling moved each start to the next one's */
         winding->start[i] = winding->start[i - 1];
     winding->start[0] = 0;

@@ -6,6 +6,7 @@
 #include "trace/bvh/bvh_pages.h"
 #include "trace/bvh/bvh_split.h"
 
+#include <assert.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,6 +122,7 @@ static int make_children(builder *b, const sp_bvh_range *range, int depth, int t
         sp_bvh_range halves[2];
         if (!sp_bvh_divide(b->buffers, &children[next], balanced, threads, halves))
             return 0;
+        assert(halves[0].count > 0 && halves[1].count > 0 && halves[0].count + halves[1].count == children[next].count);
         memmove(children + next + 2, children + next + 1, (size_t)(count - next - 1) * sizeof *children);
         children[next] = halves[0];
         children[next + 1] = halves[1];
@@ -168,6 +170,7 @@ static void quantise(sp_bvh_node *node, const sp_bvh_box *box, const sp_bvh_rang
         for (int i = 0; i < count; i++) {
             double low = floor((children[i].box.low[axis] - origin) / step);
             double high = ceil((children[i].box.high[axis] - origin) / step);
+            assert(low >= 0 && low <= high && high <= 255); /* else the child stood out of its parent */
             node->low[axis][i] = (uint8_t)(low > 0 ? low : 0);
             node->high[axis][i] = (uint8_t)(high < 255 ? high : 255);
         }
@@ -178,6 +181,7 @@ static void quantise(sp_bvh_node *node, const sp_bvh_box *box, const sp_bvh_rang
 static bool build_subtree(builder *b, part *p, const sp_bvh_range *range, int depth, uint32_t *number)
 {
     sp_bvh_range children[SP_BVH_WIDTH];
+    assert((SP_BVH_WIDTH - 1) * (depth + 1) < SP_BVH_STACK); /* what walks have pending */
     int count = make_children(b, range, depth, 1, children);
     if (count == 0 || !add_node(p, number))
         return false;
@@ -248,6 +252,7 @@ static void take_nodes(const part *p, uint32_t first_node, uint32_t first_leaf, 
 
 static void fill_block(const sp_bvh *bvh, const sp_bvh_reference *references, uint32_t count, sp_bvh_block *block)
 {
+    assert(count > 0 && count <= SP_BVH_WIDTH);
     memset(block, 255, sizeof *block); /* SP_NONE, and what is no number */
     for (uint32_t i = 0; i < count; i++) {
         sp_corners corners;

@@ -1,5 +1,7 @@
 #include "trace/bvh/bvh.h"
 
+#include <assert.h>
+
 static bool visit_block(const sp_bvh_block *block, sp_triangle_visitor *visit, const void *region)
 {
     for (int i = 0; i < SP_BVH_WIDTH && block->triangle[i] != SP_NONE; i++)
@@ -24,6 +26,7 @@ bool sp_bvh_visit(const sp_bvh *bvh, sp_box_test *test, sp_triangle_visitor *vis
         const sp_bvh_node *node = &bvh->nodes[at];
         for (uint32_t i = 0; i < node->count; i++) {
             double low[3], high[3];
+            assert(height < SP_BVH_STACK);
             sp_bvh_child_box(bvh, node, i, low, high);
             if (test(region, low, high))
                 stack[height++] = node->child[i];

@@ -1,6 +1,7 @@
 /* The naive kd-tree: every cell is halved across its longest side until few triangles are left (study, 3.2.2.1). */
 #include "trace/kd/kd_tree.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,6 +53,7 @@ static bool divide(const builder *b, const cell *c, int axis, double split, cell
         if (b->boxes[t][1][axis] >= split)
             right->triangles[right->count++] = t;
     }
+    assert(left->count + right->count >= c->count);
     left->duplication = right->duplication = c->duplication * (double)c->count / (double)(left->count + right->count);
     return true;
 }
@@ -72,6 +74,7 @@ static bool build(const builder *b, cell *c, int depth)
     if (good && inner) {
         good = build(b, &left, depth - 1);
         b->tree->nodes[node].right = (uint32_t)b->tree->node_count;
+        assert(b->tree->nodes[node].right > node + 1);
         good = good && build(b, &right, depth - 1);
     }
     free(left.triangles);

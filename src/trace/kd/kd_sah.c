@@ -4,6 +4,7 @@
  * events are sorted once, and the children's events are the parent's without those of the other side. */
 #include "trace/kd/kd_tree.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,6 +107,7 @@ static void sweep(const cell *c, int axis, plane *best)
             consider(c, axis, position, left, here[FLAT], right, best);
         left += here[START] + here[FLAT];
     }
+    assert(left == c->count && right == 0); /* all have come and gone */
 }
 
 static plane choose(const cell *c, int depth)
@@ -149,6 +151,7 @@ static bool take(const builder *b, const cell *c, uint8_t side, cell *child)
         for (size_t i = 0; i < c->event_count[axis]; i++)
             if (b->side[c->events[axis][i].triangle] & side)
                 child->events[axis][n++] = c->events[axis][i];
+        assert(n <= 2 * child->count); /* as the plane's cost was counted */
         child->event_count[axis] = n;
     }
     return true;
@@ -164,6 +167,7 @@ static void clear(cell *c)
 
 static bool divide(const builder *b, const cell *c, const plane *p, cell *left, cell *right)
 {
+    assert(p->left + p->right >= c->count);
     double duplication = c->duplication * (double)c->count / (double)(p->left + p->right + 1);
     *left = (cell){.count = p->left, .duplication = duplication};
     *right = (cell){.count = p->right, .duplication = duplication};
@@ -182,6 +186,7 @@ static bool make_leaf(const builder *b, const cell *c)
     for (size_t i = 0; references && i < c->event_count[0]; i++)
         if (c->events[0][i].kind != END)
             *references++ = c->events[0][i].triangle;
+    assert(!references || references == b->tree->references + b->tree->reference_count);
     return references != NULL;
 }
 
@@ -198,6 +203,7 @@ static bool build(const builder *b, cell *c, int depth)
     if (good && p.axis >= 0) {
         good = build(b, &left, depth - 1);
         b->tree->nodes[node].right = (uint32_t)b->tree->node_count;
+        assert(depth > 0 && b->tree->nodes[node].right > node + 1);
         good = good && build(b, &right, depth - 1);
     }
     clear(&left);

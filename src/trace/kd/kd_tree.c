@@ -1,5 +1,6 @@
 #include "trace/kd/kd_tree.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 sp_kd_box *sp_kd_boxes(const sp_mesh *mesh)
@@ -62,6 +63,7 @@ static bool add_node(sp_kd_tree *tree, sp_kd_node node)
 
 bool sp_kd_add_inner(sp_kd_tree *tree, double split, uint32_t axis, uint32_t *node)
 {
+    assert(axis < SP_KD_LEAF && !isnan(split));
     *node = (uint32_t)tree->node_count;
     return add_node(tree, (sp_kd_node){split, 0, axis});
 }
@@ -77,6 +79,7 @@ uint32_t *sp_kd_add_leaf(sp_kd_tree *tree, size_t count)
     if (!good || !add_node(tree, (sp_kd_node){0, (uint32_t)first, (uint32_t)(4 * count) + SP_KD_LEAF}))
         return NULL;
     tree->reference_count += count;
+    assert(tree->reference_count <= tree->reference_room);
     return tree->references + first;
 }
 

@@ -1,5 +1,7 @@
 #include "trace/line/line_bvh.h"
 
+#include <assert.h>
+
 /* For origins farther away, in the hierarchy's space, single precision will not do even where the line comes near. */
 #define FAR 0x1p15
 
@@ -132,6 +134,7 @@ void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const s
 {
     static void (*const together[])(sp_line_queue *) = SP_KERNELS(sp_bvh_lines);
     static void (*const single[])(sp_line_queue *) = SP_KERNELS(sp_bvh_lines_single);
+    assert(hits || occluded || count == 0);
     sp_line_queue queue = {
         .bvh = bvh, .rays = rays, .order = order, .count = count, .hits = hits, .occluded = occluded};
     for (size_t i = 0; bvh->node_count == 0 && i < count; i++) {

@@ -1,5 +1,7 @@
 #include "trace/parabola/parabola_bvh.h"
 
+#include <assert.h>
+
 enum { LEAST_TOGETHER = 4 }; /* fewer flights are prepared one by one */
 
 /* A walk in double precision, for whatever the fast one does not take. */
@@ -256,6 +258,7 @@ void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, con
                             size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)
 {
     sp_parabola_queue queue;
+    assert(pull->strength != 0 && (hits || occluded || count == 0));
     queue.bvh = queue.pairs.bvh = bvh;
     queue.pull = queue.pairs.pull = pull;
     queue.rays = queue.pairs.rays = rays;

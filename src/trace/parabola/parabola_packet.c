@@ -2,6 +2,7 @@
 #include "trace/parabola/parabola_packet.h"
 #include "trace/bvh/direction_order.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Coordinates up to which flights are followed, some more than the boxes with their padding; the most that speed times
@@ -121,6 +122,7 @@ static bool begin(common_origin *c, const sp_pull *pull)
         sp_vec3 v = c->rays[i].velocity;
         fastest = sp_greater(fastest, sp_greater(fabs(v.x), sp_greater(fabs(v.y), fabs(v.z))));
     }
+    assert(pull->strength != 0);
     fastest *= bvh->scale;
     if (!(fastest > 1e-100 && fastest < 1e100))
         return false;
@@ -259,5 +261,6 @@ size_t sp_parabola_packets_trace(const sp_bvh *bvh, sp_instructions instructions
     free(c.scaled);
     free(c.order[0]);
     free(c.order[1]);
+    assert(others <= count);
     return others;
 }

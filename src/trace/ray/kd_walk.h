@@ -15,6 +15,8 @@
 #include "trace/kd/kd_tree.h"
 #include "trace/ray/search.h"
 
+#include <assert.h>
+
 typedef struct {
     uint32_t node;
     double from, to; /* s, when the path is in it */
@@ -55,6 +57,7 @@ static void search_leaves(const walk *w, const sp_corners *corners, const sp_kd_
         const sp_kd_node *node = &tree->nodes[at.node];
         while ((node->size & 3) != SP_KD_LEAF) {
             step(w, node, &at, stack, &height);
+            assert(height <= SP_KD_DEPTH);
             node = &tree->nodes[at.node];
         }
         const uint32_t *references = tree->references + node->right;
