@@ -1,6 +1,7 @@
 #include "certificate/aim_bound.h"
 
 #include "certificate/aim_pricing.h"
+#include "certificate/pose_rows.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,7 @@
 #include "certificate/aim_pricing.h"
 
+#include "certificate/pose_price.h"
+#include "certificate/pose_rows.h"
 #include "ranks/gather.h"
 #include "scoring/scoring.h"
 

@@ -2,6 +2,7 @@
 
 #include "bound/tuples.h"
 #include "certificate/aim_bound.h"
+#include "certificate/pose_pricer.h"
 #include "certificate/problem.h"
 
 #include <assert.h>

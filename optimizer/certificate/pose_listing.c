@@ -1,5 +1,6 @@
-/* All poses and found nozzles as one list, by whose positions they are priced and written down. */
-#include "certificate/pose_pricing_state.h"
+#include "certificate/pose_listing.h"
+#include "certificate/pose_price.h"
+#include "certificate/pose_rows.h"
 #include "ranks/gather.h"
 
 #include <omp.h>
@@ -114,9 +115,4 @@ bool sp_pose_list(sp_pose_pricing *pricing, const sp_pose_order *order, sp_candi
     pricing->order = order;
     pricing->last = calloc(order->list.count + 1, sizeof *pricing->last);
     return pricing->last || sp_fail_memory(error);
-}
-
-const float *sp_pose_pricing_last(const sp_pose_pricing *pricing)
-{
-    return pricing->last;
 }

@@ -1,5 +1,5 @@
-/* The price of one pose, rounded upwards. */
-#include "certificate/pose_pricing_state.h"
+#include "certificate/pose_price.h"
+#include "certificate/pose_rows.h"
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define SURELY (1 + 1e-5f) /* flux over threshold, from which a cell covers its part and brings others nothing */

@@ -1,13 +1,17 @@
 /* What every candidate pose is worth at given multipliers of the texels: swept from what was traced, no pose's row
- * stored. */
+ * stored. What its files share: rows (pose_rows.h), the price of one pose (pose_price.h), all of them as a list
+ * (pose_listing.h), and the best for a bound (pose_pricer.h). */
 #ifndef OPTIMIZER_POSE_PRICING_H
 #define OPTIMIZER_POSE_PRICING_H
 
 #include "bound/bound.h"
-#include "scoring/partial.h"
 #include "certificate/pose_order.h"
+#include "scoring/partial.h"
+#include "scoring/scoring.h"
 
 #include <math.h>
+
+#define SP_POSE_SLACK 1e-6 /* more than single precision puts an edge, or a flux over its threshold, wrong */
 
 /* Fields rounded in single precision, and those of so many nozzles added up so, lie off by less than this share: every
  * sum by half a unit in the last place. */
@@ -16,7 +20,62 @@ static inline double sp_field_margin(size_t nozzles)
     return fmax(2e-5, 0x1p-24 * ((double)nozzles + 40));
 }
 
-typedef struct sp_pose_pricing sp_pose_pricing;
+/* The pose of highest price of a site and variant. */
+typedef struct {
+    sp_pose pose;
+    double price;
+} sp_pose_best;
+
+/* One thread's own. */
+typedef struct {
+    float *worth; /* [2 x (arrivals of a view + 2 SP_LANES)], price that it brings to a variant */
+    float total[SP_BINS];
+    sp_cull cull;
+    sp_desk *desk;
+    const sp_multipliers *multipliers; /* of now */
+    sp_field_sweeper fields;           /* of which `worth` holds the arrays */
+    float *field;                      /* [field_count] */
+    uint32_t *texels;                  /* [2 patch_count], of the row of a field or footprint */
+    float *shares;
+} sp_pose_scratch;
+
+typedef struct {
+    const sp_search *search;
+    const sp_cover *cover;
+    const uint32_t *tier_of;
+    const float *need, *film_need;
+    const size_t *ports;
+    const sp_pose_order *order; /* NULL until a list is asked for */
+    float *last;                /* [order->list.count], see sp_pose_pricing_last */
+    sp_pose_best *bests;        /* [sites x variants] */
+    int threads;
+    sp_pose_scratch *scratches; /* [threads] */
+    float upwards;              /* more than a share may lie off */
+    bool bent;                  /* flights are, so that two arcs may come to a cell */
+} sp_pose_pricing;
+
+static inline uint32_t sp_pose_tier(const sp_pose_pricing *pricing, uint32_t site, uint32_t variant)
+{
+    return pricing
+        ->tier_of[pricing->search->sites->items[site].mount * pricing->search->candidates->variant_count + variant];
+}
+
+static inline sp_ranks *sp_pose_ranks(const sp_pose_pricing *pricing)
+{
+    return pricing->search->options->run.ranks;
+}
+
+/* The share of what a texel needs that a flux brings, rounded upwards. */
+static inline float sp_pose_share(const sp_pose_pricing *pricing, uint32_t texel, float flux, bool twice)
+{
+    float ratio = flux / pricing->need[texel] * pricing->upwards;
+    if (ratio >= 1)
+        return 1;
+    if (!(ratio > 0))
+        return 0;
+    /* two arcs of one nozzle add up, even where one nozzle alone must do */
+    return pricing->search->single && !twice ? 0 : ratio;
+}
 
 /* For the cover of `search`, its texels the coarse patches: tier_of [mounts x variants], the tier of each variant's
  * outlay in a mount; need [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; film_need
@@ -26,24 +85,5 @@ sp_pose_pricing *sp_pose_pricing_create(const sp_search *search, const sp_cover 
                                         const float *need, const float *film_need, const size_t *ports,
                                         sp_error *error);
 void sp_pose_pricing_destroy(sp_pose_pricing *pricing);
-/* The list of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
- * the keys of rows are positions. */
-bool sp_pose_list(sp_pose_pricing *pricing, const sp_pose_order *order, sp_candidate_list *list, sp_error *error);
-sp_pricer sp_pose_pricer(sp_pose_pricing *pricing);
-/* What the pricer found everything to be worth when it last priced all, by position of the list, rounded upwards: a
- * little, or by more where it is far from what it must be to raise the bound. */
-const float *sp_pose_pricing_last(const sp_pose_pricing *pricing);
-/* What each arrival of a view brings to a nozzle of a strength, flux over threshold per transfer, from `least` to
- * `most`, rounded upwards (worth, [view->count]); and each bin in all (total, [SP_BINS]). */
-void sp_pose_pricing_worth(const sp_pose_pricing *pricing, const sp_view *view, float least, float most,
-                           const sp_multipliers *u, float *worth, float *total);
-/* Appends a field (see sp_placed) as a row. */
-bool sp_pose_pricing_row(const sp_pose_pricing *pricing, const float *field, uint64_t key, size_t port, uint32_t tier,
-                         sp_rows *rows, sp_error *error);
-/* Appends what a nozzle of a layout that was found brings, as SP_OWN_KEY. */
-bool sp_pose_pricing_found(const sp_pose_pricing *pricing, const sp_placed *placed, uint32_t tier, sp_rows *rows,
-                           sp_error *error);
-/* Appends the row of a pose. */
-bool sp_pose_pricing_add(const sp_pose_pricing *pricing, sp_pose pose, sp_rows *rows, sp_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* Rows of poses and of nozzles that were found: the texels that each brings liquid to, and the shares. */
-#include "certificate/pose_pricing_state.h"
+#include "certificate/pose_rows.h"
+#include "scoring/footprints.h"
 
 #include <omp.h>
 #include <string.h>

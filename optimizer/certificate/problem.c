@@ -1,5 +1,8 @@
 #include "certificate/problem.h"
 
+#include "certificate/pose_listing.h"
+#include "certificate/pose_pricer.h"
+#include "certificate/pose_rows.h"
 #include "scoring/scoring.h"
 
 #include <math.h>

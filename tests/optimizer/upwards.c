@@ -3,7 +3,9 @@
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "certificate/pose_pricing.h"
+#include "certificate/pose_listing.h"
+#include "certificate/pose_pricer.h"
+#include "certificate/pose_rows.h"
 #include "certificate/water_units.h"
 
 static double next_random(uint64_t *state)
