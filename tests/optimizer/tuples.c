@@ -207,6 +207,45 @@ static void no_layout_covers_more(void **state)
     }
 }
 
+static bool goes_on_for(void *user)
+{
+    size_t *left = user;
+    return *left && (*left)--;
+}
+
+/* Wherever it is broken off, also before any candidate has its set, nothing is claimed that does not hold. */
+static void what_is_broken_off_proves_nothing(void **state)
+{
+    (void)state;
+    uint64_t random = 29;
+    sp_error error = {0};
+    instance in;
+    sp_valid_inequalities inequalities;
+    sp_multipliers u;
+    instance_create(&in, 12, 14, false, 3, 40, 0, 0.3, 4711);
+    set_multipliers(&in, 0, 40, &inequalities, &u, &random);
+    double best = best_of(&in, 40);
+    bool complete = false;
+    for (size_t asked = 0; !complete; asked++) {
+        stored_line s;
+        sp_tuple_answer answer;
+        size_t left = asked;
+        stored_line_create(&in.cover, &in.rows, &s);
+        sp_tuples *tuples = tuples_of(&s, 40, 0.3 * best, 2 * best, &u);
+        in.cover.goes_on = goes_on_for;
+        in.cover.user = &left;
+        assert_true(sp_tuples_bound(tuples, 0.5 * best, PLENTY_OF_WORK, &answer, &error));
+        complete = answer.complete;
+        assert_true(asked > 2 || !complete);
+        assert_true(!complete || answer.bound >= best);
+        in.cover.goes_on = NULL;
+        sp_tuples_destroy(tuples);
+        stored_line_free(&s);
+    }
+    sp_multipliers_free(&u);
+    instance_free(&in);
+}
+
 /* Unions, counted bit by bit. */
 static void sets_are_counted_upwards(void **state)
 {
@@ -253,6 +292,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_layout_covers_more),
+        cmocka_unit_test(what_is_broken_off_proves_nothing),
         cmocka_unit_test(sets_are_counted_upwards),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
