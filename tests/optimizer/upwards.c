@@ -130,6 +130,8 @@ static void what_falls_short_does_not_cover(void **state)
 #define POSES 400
 #define LOOSE 1.001
 #endif
+#define TRACE_OF_FILM                                                                                                  \
+    5e-6 /* of what is asked for: what edges lose in single precision, and less than sums are rounded up by */
 #define LOOSE_FILM 1.1 /* at a spray's edge film counts besides what is hit */
 
 /* A chamber with a block in it and sprays of every kind, most narrow, in a line and a port. */
@@ -272,15 +274,27 @@ static void stage_close(stage *s)
     room_close(&s->room);
 }
 
-/* What a pose brings at these multipliers, by sp_evaluate_inverse alone. */
-static double worth(const stage *s, sp_pose pose)
+/* A pose by itself, by sp_evaluate_inverse alone. */
+static sp_coverage *coverage_of(const stage *s, sp_pose pose)
 {
     sp_error error = {0};
     sp_nozzle nozzle = sp_pose_nozzle(&s->candidates, &s->sites, pose, s->room.setup.up);
     sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
     sp_coverage *coverage = sp_evaluate_inverse(s->evaluator, layout, &error);
     assert_non_null(coverage);
-    double price = 0, film = s->room.setup.criterion.film;
+    sp_layout_destroy(layout);
+    return coverage;
+}
+
+static double film_share(const stage *s, const sp_coverage *coverage, size_t t)
+{
+    return fmin(1, coverage->deposits.film[t] / s->room.setup.criterion.film / (double)s->film_need[t]);
+}
+
+/* What a pose brings at these multipliers. */
+static double worth(const stage *s, const sp_coverage *coverage)
+{
+    double price = 0;
     for (size_t t = 0; t < s->search.patch_count; t++) {
         double even = coverage->deposits.even[t], part = 1 - coverage->deposits.dry[t], share = even > 0;
         if (s->search.threshold > 0)
@@ -288,16 +302,27 @@ static double worth(const stage *s, sp_pose pose)
         if (s->search.single && share < 1)
             share = 0;
         if (s->film_need)
-            share = fmax(share, fmin(1, coverage->deposits.film[t] / film / (double)s->film_need[t]));
+            share = fmax(share, film_share(s, coverage, t));
         double strong = s->multipliers.inequalities
                             ? (double)sp_strengthen(&s->inequalities, s->multipliers.kind[t], (float)share)
                             : 0;
         price += fmax(part, share) * (double)s->multipliers.plain[t] +
                  fmax(part, strong) * (double)s->multipliers.strengthened[t];
     }
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(layout);
     return price;
+}
+
+/* A row has no less of any texel than its film is, whatever other texels are rounded by. */
+static void check_film(const stage *s, const sp_coverage *coverage, const sp_rows *rows, size_t row)
+{
+    size_t i = rows->start[row];
+    for (size_t t = 0; t < s->search.patch_count; t++) {
+        double share = 0;
+        for (; i < rows->start[row + 1] && rows->texel[i] == t; i++)
+            share = fmax(share, (double)rows->share[i]);
+        if (s->need[t] > 0 && share < film_share(s, coverage, t) - TRACE_OF_FILM)
+            fail_msg("film %.9g, in its row %.9g", film_share(s, coverage, t), share);
+    }
 }
 
 /* No pose is worth more than the sweep says, nor than its row; and not much less, so that the prices are good for
@@ -317,9 +342,13 @@ static void check_prices(stage *s)
     for (size_t block = 0; block < s->order.block_count; block++)
         for (size_t at = s->order.blocks[block].start; at < s->order.blocks[block + 1].start; at += stride) {
             sp_pose pose = sp_pose_order_at(&s->order, block, at);
-            double exact = worth(s, pose), swept = (double)last[at];
+            sp_coverage *coverage = coverage_of(s, pose);
+            double exact = worth(s, coverage), swept = (double)last[at];
             size_t row = rows.count;
             assert_true(sp_pose_pricing_add(s->poses, pose, &rows, &error));
+            if (s->film_need)
+                check_film(s, coverage, &rows, row);
+            sp_coverage_destroy(coverage);
             double by_row = sp_rows_price(&rows, row, &s->multipliers);
             if (exact > swept || exact > by_row)
                 fail_msg("type %zu is worth %.9g, swept %.9g, by its row %.9g",
