@@ -1,8 +1,7 @@
 /* Cells of aims: no aim of a cell is worth more than the cell's bound, and small cells' bounds are little more than
  * what their aims are worth. */
-#include "room.h"
+#include "prepared.h"
 
-#include "scoring/prepare.h"
 #include "certificate/aim_pricing.h"
 #include "scoring/scoring.h"
 
@@ -25,11 +24,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_deadline deadline;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_visibility visibility;
-    sp_search search;
+    prepared ready;
     sp_cover cover;
     uint32_t weight[1], tier[64];
     const uint32_t *tiers[2 * TYPES];
@@ -77,7 +72,7 @@ static void set_types(stage *s)
 static void set_multipliers(stage *s, bool sparse, uint64_t *random)
 {
     sp_error error = {0};
-    size_t patches = s->search.patch_count;
+    size_t patches = s->ready.search.patch_count;
     s->weight[0] = 1;
     for (size_t i = 0; i < 64; i++)
         s->tier[i] = 0;
@@ -85,7 +80,7 @@ static void set_multipliers(stage *s, bool sparse, uint64_t *random)
         s->tiers[i] = s->tier;
     s->ports[0] = s->ports[1] = SP_NO_PORT;
     s->cover = (sp_cover){.texel_count = patches,
-                          .area = s->search.area,
+                          .area = s->ready.search.area,
                           .tier_count = 1,
                           .weight = s->weight,
                           .nozzles = 3,
@@ -100,8 +95,8 @@ static void set_multipliers(stage *s, bool sparse, uint64_t *random)
         double strengthened = fmax(0, next_random(random) - 0.5);
         s->need[t] = t % 17 ? 1 : 0.5f;
         double priced = sparse ? t % 37 == 0 : 1;
-        s->multipliers.plain[t] = (float)(priced * next_random(random) * (1 - strengthened)) * s->search.area[t];
-        s->multipliers.strengthened[t] = (float)(priced * strengthened) * s->search.area[t];
+        s->multipliers.plain[t] = (float)(priced * next_random(random) * (1 - strengthened)) * s->ready.search.area[t];
+        s->multipliers.strengthened[t] = (float)(priced * strengthened) * s->ready.search.area[t];
         s->multipliers.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
@@ -141,18 +136,12 @@ static void stage_open(stage *s, sp_trajectory trajectory, bool sparse, uint64_t
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
     s->options.run.threads = 1;
-    s->deadline = sp_deadline_start(&s->options.run);
-    assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
-    assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
-                                     &s->visibility, &error));
-    assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
-                                 &error));
+    prepare(&s->ready, s->room.evaluator, &s->options);
     set_multipliers(s, sparse, random);
-    assert_true(sp_aim_kinds_create(&s->search, &s->kinds, &error));
+    assert_true(sp_aim_kinds_create(&s->ready.search, &s->kinds, &error));
     assert_int_equal(s->kinds.count, TYPES);
-    s->poses = sp_pose_pricing_create(&s->search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
-    s->aims = sp_aim_pricing_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
+    s->poses = sp_pose_pricing_create(&s->ready.search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
+    s->aims = sp_aim_pricing_create(&s->ready.search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
     assert_true(s->poses && s->aims);
 }
 
@@ -163,11 +152,7 @@ static void stage_close(stage *s)
     sp_aim_kinds_free(&s->kinds);
     sp_multipliers_free(&s->multipliers);
     free(s->need);
-    sp_search_free(&s->search);
-    sp_visibility_free(&s->visibility);
-    sp_candidates_free(&s->candidates);
-    sp_sites_free(&s->sites);
-    free(s->deadline.stages);
+    prepared_free(&s->ready);
     room_close(&s->room);
 }
 
@@ -175,14 +160,14 @@ static void stage_close(stage *s)
 static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray *spray, const sp_frame *frame,
                     double flow)
 {
-    const sp_view *view = &s->visibility.views[site * s->visibility.launch_count + speed];
-    float *field = calloc(s->search.patch_count, sizeof *field);
+    const sp_view *view = &s->ready.visibility.views[site * s->ready.visibility.launch_count + speed];
+    float *field = calloc(s->ready.search.patch_count, sizeof *field);
     double price = 0;
     assert_non_null(field);
     sp_posed_spray posed = {
-        .spray = *spray, .frame = *frame, .strength = flow / (spray->solid_angle * s->search.plenty)};
-    sp_field_view(&s->search, view, &posed, field);
-    for (size_t t = 0; t < s->search.patch_count; t++) {
+        .spray = *spray, .frame = *frame, .strength = flow / (spray->solid_angle * s->ready.search.plenty)};
+    sp_field_view(&s->ready.search, view, &posed, field);
+    for (size_t t = 0; t < s->ready.search.patch_count; t++) {
         float share = field[t] < 0 ? -field[t] : fminf(1, field[t] / s->need[t]);
         float strengthened = field[t] < 0 ? share : sp_strengthen(&s->inequalities, s->multipliers.kind[t], share);
         if (share > 0)
@@ -226,14 +211,14 @@ static double worth_of_some(const stage *s, const sp_aim_cell *cell, const sp_ai
 /* A piece of a piece of all aims, and so on. False where it has come to nothing. */
 static bool draw_cell(const stage *s, int splits, uint64_t *random, sp_aim_cell *cell)
 {
-    uint32_t site = (uint32_t)(next_random(random) * (double)s->sites.count);
+    uint32_t site = (uint32_t)(next_random(random) * (double)s->ready.sites.count);
     uint32_t number = (uint32_t)(next_random(random) * TYPES);
     const sp_aim_kind *kind = &s->kinds.items[number];
-    double tilt = s->mounts[s->sites.items[site].mount].tilt;
+    double tilt = s->mounts[s->ready.sites.items[site].mount].tilt;
     *cell = sp_aim_cell_whole(kind, site, number, (uint32_t)(next_random(random) * (double)kind->step_count));
-    for (int i = 0; i < splits && sp_aim_cell_splits(cell, kind, &s->sites.items[site], tilt); i++) {
+    for (int i = 0; i < splits && sp_aim_cell_splits(cell, kind, &s->ready.sites.items[site], tilt); i++) {
         sp_aim_cell children[SP_AIM_CHILDREN];
-        size_t count = sp_aim_cell_split(cell, kind, &s->sites.items[site], tilt, children);
+        size_t count = sp_aim_cell_split(cell, kind, &s->ready.sites.items[site], tilt, children);
         if (!count)
             return false;
         *cell = children[(size_t)(next_random(random) * (double)count)];
@@ -257,7 +242,7 @@ static void no_aim_is_worth_more_than_its_cell(void **state)
             sp_aim_cell cell;
             if (!draw_cell(&s, splits, &random, &cell))
                 continue;
-            const sp_site *site = &s.sites.items[cell.site];
+            const sp_site *site = &s.ready.sites.items[cell.site];
             sp_aim_disc disc = sp_aim_cell_disc(&cell, site, s.mounts[site->mount].tilt);
             double upper = sp_aim_pricing_upper(s.aims, &cell, &s.multipliers), most = 0;
             for (int k = 0; k < AIMS; k++)

@@ -1,7 +1,6 @@
 /* Searches in a coverage matrix of poses against every layout that can be made of them. */
-#include "room.h"
+#include "prepared.h"
 
-#include "scoring/prepare.h"
 #include "search/partial_enumeration.h"
 #include "search/tuned.h"
 
@@ -17,11 +16,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_deadline deadline;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_visibility visibility;
-    sp_search search;
+    prepared ready;
     sp_pool pool; /* every pose */
 } job;
 
@@ -62,17 +57,12 @@ static void job_open(job *j, bool single)
                               .to = sp_v(0.9, 0.1, 1)};
     j->mounts[1] =
         (sp_mount){.kind = SP_MOUNT_PORT, .name = "P", .position = sp_v(0.5, -0.3, 1.1), .axis = sp_v(0, 0, -1)};
-    j->deadline = sp_deadline_start(&j->options.run);
-    assert_true(sp_sites_create(j->room.evaluator, &j->options, &j->sites, &error));
-    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &error));
-    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->deadline,
-                                     &j->visibility, &error));
-    assert_true(sp_search_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->visibility, &j->search,
-                                 &error));
-    for (uint32_t site = 0; site < j->sites.count; site++)
-        for (uint32_t variant = 0; variant < j->candidates.variant_count; variant++)
+    prepare(&j->ready, j->room.evaluator, &j->options);
+    for (uint32_t site = 0; site < j->ready.sites.count; site++)
+        for (uint32_t variant = 0; variant < j->ready.candidates.variant_count; variant++)
             for (uint32_t axis = 0;
-                 axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, variant)->count; axis++)
+                 axis < sp_candidates_axes(&j->ready.candidates, j->ready.sites.items[site].mount, variant)->count;
+                 axis++)
                 assert_true(sp_pool_add(&j->pool, (sp_pose){site, variant, axis, 0}, &error));
     sp_pool_settle(&j->pool);
 }
@@ -80,11 +70,7 @@ static void job_open(job *j, bool single)
 static void job_close(job *j)
 {
     sp_pool_free(&j->pool);
-    sp_search_free(&j->search);
-    sp_visibility_free(&j->visibility);
-    sp_candidates_free(&j->candidates);
-    sp_sites_free(&j->sites);
-    free(j->deadline.stages);
+    prepared_free(&j->ready);
     room_close(&j->room);
 }
 
@@ -104,7 +90,8 @@ static double area_of(const job *j, const uint32_t *rows, size_t count, bool alo
         sp_nozzle nozzles[3];
         size_t taken = alone ? 1 : count;
         for (size_t k = 0; k < taken; k++)
-            nozzles[k] = sp_pose_nozzle(&j->candidates, &j->sites, j->pool.items[rows[alone ? i : k]], setup.up);
+            nozzles[k] =
+                sp_pose_nozzle(&j->ready.candidates, &j->ready.sites, j->pool.items[rows[alone ? i : k]], setup.up);
         sp_layout *layout = sp_layout_create(nozzles, taken, &error);
         sp_coverage *coverage = sp_evaluate_inverse(evaluator, layout, &error);
         assert_non_null(coverage);
@@ -159,13 +146,13 @@ static void enumeration_comes_near_the_best(void **state)
         sp_lineup lineups[6], scratch;
         double budgets[6];
         job_open(&j, single);
-        assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
         assert_true(matrix.row_count >= 14);
-        assert_int_equal(matrix.patch_count, j.search.patch_count);
+        assert_int_equal(matrix.patch_count, j.ready.search.patch_count);
         assert_true(sp_lineup_create(&matrix, &scratch, &error));
         for (size_t i = 0; i < 6; i++)
             budgets[i] = LITRES(waters[i]) * (1 + SP_ROUNDING);
-        assert_true(sp_enumerate_partially(&matrix, budgets, 6, &j.deadline, lineups, &error));
+        assert_true(sp_enumerate_partially(&matrix, budgets, 6, &j.ready.deadline, lineups, &error));
         for (size_t i = 0; i < 6; i++) {
             double best = best_of_all(&matrix, budgets[i], &scratch);
             assert_true(lineups[i].flow <= budgets[i]);
@@ -194,11 +181,11 @@ static void two_merge_into_the_best_one(void **state)
     sp_coverage_matrix matrix;
     sp_lineup lineup, scratch;
     job_open(&j, false);
-    assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+    assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
     assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
     uint32_t narrow[3], found = 0;
     for (uint32_t r = 0; r < matrix.row_count && found < 3; r++)
-        if (j.candidates.variants[j.pool.items[r].variant].type == &j.types[1])
+        if (j.ready.candidates.variants[j.pool.items[r].variant].type == &j.types[1])
             narrow[found++] = r;
     assert_int_equal(found, 3);
     for (int i = 0; i < 2; i++) {
@@ -239,7 +226,7 @@ static void regrouping_never_loses(void **state)
         sp_coverage_matrix matrix;
         sp_lineup lineup, scratch;
         job_open(&j, single);
-        assert_true(sp_coverage_matrix_create(&j.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
         assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
         for (uint32_t first = 0; first + 2 < matrix.row_count; first++) {
             uint32_t rows[3] = {first, first + 1, first + 2};
@@ -272,7 +259,7 @@ static void tuned_poses_say_their_flow(void **state)
     sp_partial partial;
     job_open(&j, false);
     j.options.refine.flow = INFINITY;
-    assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
+    assert_true(sp_tuned_create(&j.ready.search, &j.pool, &tuned, &error));
     assert_int_equal(tuned.candidates.variant_count, 2 + 4);
     assert_true(tuned.pool.count > j.pool.count);
     for (size_t i = 0; i < tuned.pool.count; i++) {

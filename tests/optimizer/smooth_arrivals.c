@@ -1,8 +1,7 @@
 /* Smooth arrivals: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and
  * drops. */
-#include "room.h"
+#include "prepared.h"
 
-#include "scoring/prepare.h"
 #include "refine/smooth_arrivals.h"
 #include "scoring/scoring.h"
 
@@ -15,11 +14,7 @@ typedef struct {
     double pressure;
     sp_mount mount;
     sp_place_options options;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_visibility visibility;
-    sp_deadline deadline;
-    sp_search search;
+    prepared ready;
     sp_sights sights;
     sp_partial partial;
 } bench;
@@ -61,27 +56,17 @@ static void bench_open(bench *b, sp_pattern pattern, sp_trajectory trajectory, d
     b->options.pressure_count = 1;
     b->options.mounts = &b->mount;
     b->options.mount_count = 1;
-    b->deadline = sp_deadline_start(&b->options.run);
-    assert_true(sp_sites_create(b->room.evaluator, &b->options, &b->sites, &error));
-    assert_true(sp_candidates_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &error));
-    assert_true(sp_visibility_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->deadline,
-                                     &b->visibility, &error));
-    assert_true(sp_search_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->visibility, &b->search,
-                                 &error));
-    assert_true(sp_sights_create(&b->search, 4, false, &b->sights, &error));
-    assert_true(sp_partial_create(&b->search, &b->partial, &error));
-    assert_true(sp_partial_add_pose(&b->search, &b->partial, (sp_pose){1, 0, 2, 0}, &error));
+    prepare(&b->ready, b->room.evaluator, &b->options);
+    assert_true(sp_sights_create(&b->ready.search, 4, false, &b->sights, &error));
+    assert_true(sp_partial_create(&b->ready.search, &b->partial, &error));
+    assert_true(sp_partial_add_pose(&b->ready.search, &b->partial, (sp_pose){1, 0, 2, 0}, &error));
 }
 
 static void bench_close(bench *b)
 {
     sp_partial_free(&b->partial);
     sp_sights_free(&b->sights);
-    sp_search_free(&b->search);
-    sp_visibility_free(&b->visibility);
-    sp_candidates_free(&b->candidates);
-    sp_sites_free(&b->sites);
-    free(b->deadline.stages);
+    prepared_free(&b->ready);
     room_close(&b->room);
 }
 
@@ -117,7 +102,7 @@ static void look(const bench *b, const sp_pose_parameters *parameters, const sp_
     const sp_smooth_arrivals arrivals = {l->value[0], slopes ? l->slope[0] : NULL, l->value[1],
                                          slopes ? l->slope[1] : NULL};
     const sp_brought brought = {l->value[2], slopes ? l->slope[2] : NULL};
-    sp_smooth_arrivals_set(&b->search, parameters, sight, width, values, &arrivals, &brought);
+    sp_smooth_arrivals_set(&b->ready.search, parameters, sight, width, values, &arrivals, &brought);
 }
 
 /* Largest difference between slopes and central differences over the largest slope, for one unknown. */
@@ -198,7 +183,7 @@ static void slopes_are_differences(void **state)
         bench_open(&b, patterns[i % 3], trajectories[i / 3 % 3], flux, i < 18 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
         const sp_sight *sight = sp_sights_look(&b.sights, &b.partial.items[0], &error);
         assert_non_null(sight);
-        sp_pose_parameters parameters = sp_pose_parameters_create(&b.search, &b.partial.items[0]);
+        sp_pose_parameters parameters = sp_pose_parameters_create(&b.ready.search, &b.partial.items[0]);
         assert_int_equal(parameters.count, i % 3 == 2 ? 8 : 7);
         check_slopes(&b, &parameters, sight, i);
         bench_close(&b);
@@ -212,14 +197,14 @@ static void dry_patches_say_what_is_added(void **state)
     bench b;
     sp_error error = {0};
     bench_open(&b, SP_PATTERN_FULL_CONE, SP_TRAJECTORY_PARABOLA, 2 * LITRES_PER_MINUTE, SP_COMBINE_SUM);
-    size_t patches = b.search.patch_count, left_out = 0;
+    size_t patches = b.ready.search.patch_count, left_out = 0;
     float *whole = malloc(patches * sizeof *whole), *part = malloc(patches * sizeof *part);
     sp_placed placed = b.partial.items[0];
     placed.nozzle.position.x += 0.05;
     assert_true(whole && part);
     assert_true(sp_sights_field(&b.sights, &placed, NULL, whole, &error));
     assert_true(sp_sights_field(&b.sights, &placed, &b.partial, part, &error));
-    assert_true(sp_field_gain(&b.search, &b.partial, whole) == sp_field_gain(&b.search, &b.partial, part));
+    assert_true(sp_field_gain(&b.ready.search, &b.partial, whole) == sp_field_gain(&b.ready.search, &b.partial, part));
     for (size_t p = 0; p < patches; p++)
         left_out += whole[p] != 0 && part[p] == 0;
     assert_true(left_out > 0);

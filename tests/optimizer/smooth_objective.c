@@ -1,7 +1,7 @@
 /* The smoothed coverage is maximised, by Ceres: a disc over a square floor comes to lie in its middle. */
 #include "floor.h"
+#include "prepared.h"
 
-#include "scoring/prepare.h"
 #include "refine/anneal.h"
 #include "refine/smooth_objective.h"
 
@@ -11,11 +11,7 @@
 
 typedef struct {
     job job;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_visibility visibility;
-    sp_deadline deadline;
-    sp_search search;
+    prepared ready;
     sp_sights sights;
     sp_partial partial; /* one cone, 0.3 m off the middle */
 } bench;
@@ -23,7 +19,7 @@ typedef struct {
 static void bench_open(bench *b)
 {
     sp_error error = {0};
-    *b = (bench){.search = {0}};
+    *b = (bench){.partial = {0}};
     job *j = &b->job;
     job_open(j, EDGE, 0.05, 0);
     j->type = room_cone("set", 2 * atan(REACH / HEIGHT), 20);
@@ -33,27 +29,17 @@ static void bench_open(bench *b)
                           .from = sp_v(-0.3, 0, HEIGHT),
                           .to = sp_v(0.9, 0, HEIGHT)};
     j->options.refine = (sp_refine){.position = 1};
-    b->deadline = sp_deadline_start(&j->options.run);
-    assert_true(sp_sites_create(j->room.evaluator, &j->options, &b->sites, &error));
-    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &error));
-    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->deadline,
-                                     &b->visibility, &error));
-    assert_true(sp_search_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->visibility, &b->search,
-                                 &error));
-    assert_true(sp_sights_create(&b->search, 4, false, &b->sights, &error));
-    assert_true(sp_partial_create(&b->search, &b->partial, &error));
-    assert_true(sp_partial_add_pose(&b->search, &b->partial, (sp_pose){0, 0, 0, 0}, &error));
+    prepare(&b->ready, j->room.evaluator, &j->options);
+    assert_true(sp_sights_create(&b->ready.search, 4, false, &b->sights, &error));
+    assert_true(sp_partial_create(&b->ready.search, &b->partial, &error));
+    assert_true(sp_partial_add_pose(&b->ready.search, &b->partial, (sp_pose){0, 0, 0, 0}, &error));
 }
 
 static void bench_close(bench *b)
 {
     sp_partial_free(&b->partial);
     sp_sights_free(&b->sights);
-    sp_search_free(&b->search);
-    sp_visibility_free(&b->visibility);
-    sp_candidates_free(&b->candidates);
-    sp_sites_free(&b->sites);
-    free(b->deadline.stages);
+    prepared_free(&b->ready);
     room_close(&b->job.room);
 }
 
@@ -68,11 +54,11 @@ static void one_solve_goes_to_the_middle(void **state)
         double values[1][SP_UNKNOWNS];
         bench_open(&b);
         const sp_placed *placed = &b.partial.items[0];
-        sp_pose_parameters parameters = sp_pose_parameters_create(&b.search, placed);
+        sp_pose_parameters parameters = sp_pose_parameters_create(&b.ready.search, placed);
         const sp_sight *sight = sp_sights_look(&b.sights, placed, &error);
         assert_int_equal(parameters.count, 1);
         memcpy(values[0], parameters.value, sizeof values[0]);
-        assert_true(sp_smooth_objective_minimise(&b.search, &b.partial, &parameters, &sight, widths[w], INFINITY,
+        assert_true(sp_smooth_objective_minimise(&b.ready.search, &b.partial, &parameters, &sight, widths[w], INFINITY,
                                                  values, &error));
         sp_nozzle found = sp_pose_parameters_nozzle(&parameters, values[0]);
         print_message("from %g to %g m\n", placed->nozzle.position.x, found.position.x);
@@ -88,7 +74,7 @@ static void annealing_ends_there(void **state)
     sp_error error = {0};
     bench_open(&b);
     double before = b.partial.covered;
-    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.deadline, &b.partial, &error));
+    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.ready.deadline, &b.partial, &error));
     print_message("at %g m, %g m2 for %g\n", b.partial.items[0].nozzle.position.x, b.partial.covered, before);
     assert_true(fabs(b.partial.items[0].nozzle.position.x) < 0.01);
     assert_true(b.partial.covered > before);

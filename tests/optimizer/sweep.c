@@ -1,7 +1,6 @@
 /* The sweep against one question at a time: what a view holds, what a pose's field is, and what scores add up to. */
-#include "room.h"
+#include "prepared.h"
 
-#include "scoring/prepare.h"
 #include "scoring/scoring.h"
 
 #ifdef SPRAYPLAN_SANITIZE
@@ -20,11 +19,7 @@ typedef struct {
     double pressures[2];
     sp_mount mounts[2];
     sp_place_options options;
-    sp_deadline deadline;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_visibility visibility;
-    sp_search search;
+    prepared ready;
 } stage;
 
 static void set_types(stage *s)
@@ -80,24 +75,14 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     s->options.pressure_count = 2;
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
-    s->deadline = sp_deadline_start(&s->options.run);
-    sp_error error = {0};
-    assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
-    assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
-                                     &s->visibility, &error));
-    assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
-                                 &error));
-    assert_int_equal(s->sites.count, 4);
-    assert_int_equal(s->candidates.launch_count, 2);
+    prepare(&s->ready, s->room.evaluator, &s->options);
+    assert_int_equal(s->ready.sites.count, 4);
+    assert_int_equal(s->ready.candidates.launch_count, 2);
 }
 
 static void stage_close(stage *s)
 {
-    sp_search_free(&s->search);
-    sp_visibility_free(&s->visibility);
-    sp_candidates_free(&s->candidates);
-    sp_sites_free(&s->sites);
+    prepared_free(&s->ready);
     room_close(&s->room);
 }
 
@@ -116,14 +101,15 @@ static double next_random(uint64_t *state)
 /* Every `stride`-th pose of the stage, as visited by its number. */
 static sp_pose pose_of(const stage *s, size_t number)
 {
-    const sp_candidates *candidates = &s->candidates;
+    const sp_candidates *candidates = &s->ready.candidates;
     sp_pose pose = {0};
     while (candidates->pose_start[pose.site + 1] <= number)
         pose.site++;
     number -= candidates->pose_start[pose.site];
     for (;; pose.variant++) {
         uint32_t rolls = (uint32_t)candidates->variants[pose.variant].roll_count;
-        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.variant)->count * rolls;
+        size_t count =
+            sp_candidates_axes(candidates, s->ready.sites.items[pose.site].mount, pose.variant)->count * rolls;
         if (number < count) {
             pose.axis = (uint32_t)number / rolls;
             pose.roll = (uint32_t)number % rolls;
@@ -142,10 +128,10 @@ static void views_hold_what_single_rays_find(void **state)
     stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
     const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
     sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator, NULL);
-    double speed = s.candidates.launches[1].speed;
+    double speed = s.ready.candidates.launches[1].speed;
     bool *is_cut = calloc(patches->count, sizeof *is_cut);
-    for (uint32_t site = 0; site < s.sites.count; site++) {
-        const sp_view *view = &s.visibility.views[site * 2 + 1];
+    for (uint32_t site = 0; site < s.ready.sites.count; site++) {
+        const sp_view *view = &s.ready.visibility.views[site * 2 + 1];
         size_t expected = 0, whole = 0;
         double sum = 0, found = 0;
         for (size_t i = 0; i < view->count; i++)
@@ -154,11 +140,11 @@ static void views_hold_what_single_rays_find(void **state)
             sp_flight flights[2];
             if (is_cut[p])
                 continue;
-            int count = sp_flights(s.sites.items[site].position, patches->point[p], speed, gravity, flights);
+            int count = sp_flights(s.ready.sites.items[site].position, patches->point[p], speed, gravity, flights);
             for (int k = 0; k < count; k++) {
                 sp_vec3 w = flights[k].velocity;
                 double against = -sp_dot(w, patches->normal[p]) / sp_length(w);
-                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, speed),
+                sp_ray ray = {s.ready.sites.items[site].position, sp_scale(flights[k].direction, speed),
                               1e-7 * flights[k].time, (1 - 1e-7) * flights[k].time, patches->triangle[p]};
                 if (against <= 0 || acos(against) > 80 * DEGREE || sp_length(w) < 3 ||
                     sp_trace_occluded(sp_evaluator_tracer(s.room.evaluator), &ray, gravity))
@@ -170,7 +156,7 @@ static void views_hold_what_single_rays_find(void **state)
         assert_true(expected > 100);
         for (size_t i = 0; i < view->count; i++)
             if (!is_cut[view->patch[i]]) {
-                found += (double)view->transfer[i] / s.search.all;
+                found += (double)view->transfer[i] / s.ready.search.all;
                 whole++;
             }
         assert_int_equal(whole, expected);
@@ -202,14 +188,14 @@ static void fields_are_the_evaluators(void **state)
         stage_open(&s, criterion_of_all, trajectories[t]);
         const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
         float *field = malloc(patches->count * sizeof *field);
-        size_t poses = s.candidates.pose_start[s.sites.count], compared = 0, at_edges = 0;
+        size_t poses = s.ready.candidates.pose_start[s.ready.sites.count], compared = 0, at_edges = 0;
         sp_vec3 up = sp_v(0, 0, 1);
         for (size_t number = 0; number < poses; number += poses / 60) {
             sp_pose pose = pose_of(&s, number);
-            sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, up);
+            sp_nozzle nozzle = sp_pose_nozzle(&s.ready.candidates, &s.ready.sites, pose, up);
             sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
             sp_coverage *coverage = sp_evaluate_inverse(s.room.evaluator, layout, &error);
-            sp_field_pose(&s.search, pose, field);
+            sp_field_pose(&s.ready.search, pose, field);
             for (size_t p = 0; p < patches->count; p++) {
                 sp_flight flights[2];
                 double speed = sp_nozzle_speed(&nozzle, &s.room.setup.liquid);
@@ -252,20 +238,20 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     stage s;
     stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
     uint64_t random = 7;
-    size_t room = s.visibility.largest + 2 * SP_LANES, poses = s.candidates.pose_start[s.sites.count];
+    size_t room = s.ready.visibility.largest + 2 * SP_LANES, poses = s.ready.candidates.pose_start[s.ready.sites.count];
     size_t told_early = 0; /* by the bins alone */
     float *items[2] = {malloc(room * sizeof(float)), malloc(room * sizeof(float))}, totals[2][SP_BINS];
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
-        const sp_variant *variant = &s.candidates.variants[pose.variant];
-        const sp_view *view = &s.visibility.views[pose.site * 2 + variant->launch];
-        sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
+        const sp_variant *variant = &s.ready.candidates.variants[pose.variant];
+        const sp_view *view = &s.ready.visibility.views[pose.site * 2 + variant->launch];
+        sp_nozzle nozzle = sp_pose_nozzle(&s.ready.candidates, &s.ready.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
         /* of some arrivals enough for one nozzle alone */
-        const double strength = 1 / (s.search.all * (0.3 + 2 * next_random(&random)));
+        const double strength = 1 / (s.ready.search.all * (0.3 + 2 * next_random(&random)));
         sp_region region = sp_region_create(&variant->spray, &frame, strength, 0);
         sp_cull cull;
-        sp_cull_create(&s.visibility.bins, view, &variant->spray, SP_COUNT_SHARE, &cull);
+        sp_cull_create(&s.ready.visibility.bins, view, &variant->spray, SP_COUNT_SHARE, &cull);
         double naive[2] = {0}, first[2], sums[2];
         for (size_t i = 0; i < room; i++)
             for (int k = 0; k < 2; k++)
@@ -280,10 +266,10 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             const sp_weight weights[2] = {{items[0], totals[0]}, {items[1], totals[1]}};
             for (int k = 0; k < 2; k++)
                 sweeps->total(view, items[k], totals[k]);
-            sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, 0, sums);
+            sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, 0, sums);
             for (int k = 0; k < 2; k++) {
                 double alone;
-                sweeps->sum(&s.visibility.bins, &cull, &region, view, &weights[k], 1, 0, &alone);
+                sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, &weights[k], 1, 0, &alone);
                 assert_true(alone == sums[k]);
                 assert_true(fabs(sums[k] - naive[k]) <= 1e-4 * naive[k] + 1e-3);
                 if (sweeps == sp_sweep_best())
@@ -292,7 +278,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             }
             for (double share = 0.5; share < 20; share *= 2) {
                 double least = share * sums[0], early[2];
-                sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, least, early);
+                sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, least, early);
                 bool exact = early[0] == sums[0] && early[1] == sums[1];
                 assert_true(exact || (early[0] >= sums[0] && early[1] >= sums[1] && early[0] < least));
                 told_early += !exact;
@@ -315,11 +301,11 @@ static void scores_are_what_fields_add(void **state)
         sp_criterion criterion = criterion_of_all;
         criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
         stage_open(&s, criterion, SP_TRAJECTORY_LINE);
-        size_t patches = s.search.patch_count, poses = s.candidates.pose_start[s.sites.count];
+        size_t patches = s.ready.search.patch_count, poses = s.ready.candidates.pose_start[s.ready.sites.count];
         float *field = malloc(patches * sizeof *field);
         sp_partial partial;
-        assert_true(sp_partial_create(&s.search, &partial, &error));
-        sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
+        assert_true(sp_partial_create(&s.ready.search, &partial, &error));
+        sp_sweeper *sweeper = sp_sweepers_create(&s.ready.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
         for (size_t p = 0; p < patches; p++) {
@@ -328,14 +314,14 @@ static void scores_are_what_fields_add(void **state)
         }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.search, &partial, pose, 0);
-            sp_field_pose(&s.search, pose, field);
-            double gain = sp_field_gain(&s.search, &partial, field), room = 0;
+            sp_score score = sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0);
+            sp_field_pose(&s.ready.search, pose, field);
+            double gain = sp_field_gain(&s.ready.search, &partial, field), room = 0;
             for (size_t p = 0; p < patches; p++)
                 room += field[p] != 0 && partial.wet[p] < 1
-                            ? s.search.all * (double)s.search.area[p] *
+                            ? s.ready.search.all * (double)s.ready.search.area[p] *
                                   fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
-                                  (1 - (double)sp_worth(&s.search, partial.wet[p], partial.dry[p]))
+                                  (1 - (double)sp_worth(&s.ready.search, partial.wet[p], partial.dry[p]))
                             : 0;
             /* single precision may see two points on the pattern's very edge otherwise */
             assert_true(fabs(score.gain - gain) <= 1e-4 * gain + 2 * TEXEL * TEXEL);
@@ -345,12 +331,12 @@ static void scores_are_what_fields_add(void **state)
         assert_true(total > 0);
         /* what is wet by now counts only once the sweeper has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain;
+        double before = sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain;
         for (size_t p = 0; p < patches; p++)
             partial.wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == before);
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain == before);
         sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == 0);
+        assert_true(sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
         sp_partial_free(&partial);
