@@ -116,7 +116,7 @@ void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, co
             uint32_t p = view->patch[i];
             float share = sweeper->share[i], part = sp_view_part(view, i),
                   flux = view->transfer[i] > 0 ? strength * view->transfer[i] : 0;
-            if (share > 0 && making.runoff)
+            if (share + sweeper->more > 0 && making.runoff)
                 making.arriving[p] += (double)((share + sweeper->more) * part * view->transfer[i] * intensity);
             if (sweeper->counts[i] > 0 && !(view->fails && view->fails[i]))
                 field[p] = sp_field_join(field[p], swept_value(flux, sweeper->counts[i]), part);

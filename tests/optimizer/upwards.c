@@ -130,8 +130,6 @@ static void what_falls_short_does_not_cover(void **state)
 #define POSES 400
 #define LOOSE 1.001
 #endif
-#define TRACE_OF_FILM                                                                                                  \
-    5e-6 /* of what is asked for: what edges lose in single precision, and less than sums are rounded up by */
 #define LOOSE_FILM 1.1 /* at a spray's edge film counts besides what is hit */
 
 /* A chamber with a block in it and sprays of every kind, most narrow, in a line and a port. */
@@ -320,7 +318,7 @@ static void check_film(const stage *s, const sp_coverage *coverage, const sp_row
         double share = 0;
         for (; i < rows->start[row + 1] && rows->texel[i] == t; i++)
             share = fmax(share, (double)rows->share[i]);
-        if (s->need[t] > 0 && share < film_share(s, coverage, t) - TRACE_OF_FILM)
+        if (s->need[t] > 0 && share < film_share(s, coverage, t))
             fail_msg("film %.9g, in its row %.9g", film_share(s, coverage, t), share);
     }
 }
