@@ -25,18 +25,17 @@ double *sp_tuples_of_kind(const sp_tuples *o, double *tables, size_t kind)
     return tables + kind * (o->steps + 1);
 }
 
-/* What candidates could add to the sums of prices by the k-th multipliers, `price` by position: the best of each kind.
- */
-static void fill_prices(sp_tuples *o, size_t k, const float *price)
+/* What candidates could add to the sums of prices by the k-th multipliers: the best of each kind, whose prices are
+ * price[kind_start[kind]] to price[kind_start[kind + 1] - 1]. */
+static void fill_prices(sp_tuples *o, size_t k, const size_t *kind_start, const float *price)
 {
     const sp_candidate_list *list = o->list;
     const double *lighter = NULL;
     for (size_t kind = list->kind_count; kind-- > 0;) {
         float best = 0;
         double *most = sp_tuples_of_kind(o, o->most_priced[k], kind);
-        size_t end = list->weight[kind] <= o->water ? list->kind_start[kind + 1] : 0;
-#pragma omp parallel for num_threads(list->threads) reduction(max : best)
-        for (size_t i = list->kind_start[kind]; i < end; i++)
+        size_t end = list->weight[kind] <= o->water ? kind_start[kind + 1] : 0;
+        for (size_t i = kind_start[kind]; i < end; i++)
             best = price[i] > best ? price[i] : best;
         sp_tuples_fill_kind(o, kind, (double)best, lighter, most);
         lighter = most;
@@ -76,83 +75,16 @@ double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above,
     return o->floor + (double)i * step;
 }
 
-/* Leaves alive what the k-th multipliers do. */
-static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *alive)
+/* Leaves alive what the k-th multipliers do, kind by kind as in fill_prices. */
+static void shut_out(const sp_tuples *o, size_t k, const size_t *kind_start, const float *price, uint8_t *alive)
 {
     const sp_candidate_list *list = o->list;
     for (size_t kind = 0; kind < list->kind_count; kind++) {
         bool fits = list->weight[kind] <= o->water;
         size_t left = fits ? o->water - list->weight[kind] : 0;
-#pragma omp parallel for num_threads(list->threads)
-        for (size_t i = list->kind_start[kind]; i < list->kind_start[kind + 1]; i++)
+        for (size_t i = kind_start[kind]; i < kind_start[kind + 1]; i++)
             alive[i] &= fits && priced_above(o, k, (double)price[i], 0, left);
     }
-}
-
-/* Prices what is alive anew, exactly. */
-static bool price_by(sp_tuples *o, const sp_multipliers *u, const uint8_t *alive, float *price, sp_error *error)
-{
-    assert(o->priced < BY_MULTIPLIERS);
-    o->rest[o->priced++] = o->cover->base + sp_cover_rest(o->cover, u);
-    return o->list->price(o->list->user, u, alive, price, error);
-}
-
-/* Multipliers between the first two: what holds for both does for these, and the best completions by one need not be
- * those by the other. */
-static void mix(sp_tuples *o, float *const price[BY_MULTIPLIERS])
-{
-    for (; o->priced < BY_MULTIPLIERS; o->priced++) {
-        double part = (double)(o->priced - 1) / (BY_MULTIPLIERS - 1);
-        o->rest[o->priced] = part * o->rest[0] + (1 - part) * o->rest[1];
-#pragma omp parallel for num_threads(o->list->threads)
-        for (size_t i = 0; i < o->list->count; i++) {
-            double mean = part * (double)price[0][i] + (1 - part) * (double)price[1][i];
-            price[o->priced][i] = nextafterf((float)mean, INFINITY);
-        }
-    }
-}
-
-/* The candidates that the multipliers left. */
-static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY_MULTIPLIERS], sp_error *error)
-{
-    const sp_candidate_list *list = o->list;
-    for (size_t r = 0; r < list->run_count; r++) {
-        size_t kind = sp_candidate_list_kind(list, list->run_start[r]);
-        assert(list->run_start[r + 1] <= list->kind_start[kind + 1]);
-        for (size_t i = list->run_start[r]; i < list->run_start[r + 1]; i++) {
-            if (!alive[i])
-                continue;
-            if (!sp_grow(&o->items, &o->capacity, o->count + 1, sizeof *o->items))
-                return sp_fail_memory(error);
-            sp_tuple_item *own = &o->items[o->count++];
-            *own = (sp_tuple_item){.position = i,
-                                   .kind = kind,
-                                   .weight = list->weight[kind],
-                                   .set = NO_SET,
-                                   .port = list->run_port[r],
-                                   .above = INFINITY};
-            for (size_t k = 0; k < o->priced; k++) {
-                own->price[k] = price[k][i];
-                own->above = fminf(own->above, nextafterf((float)above_by(o, k, (double)price[k][i], kind), INFINITY));
-            }
-        }
-    }
-    return true;
-}
-
-/* Shuts out by all multipliers what could not be part of a layout above the target. */
-static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_MULTIPLIERS])
-{
-    for (int round = 0; round < SIFTED; round++)
-        for (size_t k = 0; k < o->priced; k++) {
-#pragma omp parallel for num_threads(o->list->threads)
-            for (size_t i = 0; i < o->list->count; i++)
-                price[k][i] = alive[i] ? price[k][i] : 0;
-            fill_prices(o, k, price[k]);
-            shut_out(o, k, price[k], alive);
-        }
-    for (size_t k = 0; k < o->priced; k++)
-        fill_prices(o, k, price[k]);
 }
 
 /* Raises the floor until no more candidates than may be are left by prices as they were found; `above` [positions] is
@@ -161,54 +93,162 @@ static void raise_floor(sp_tuples *o, const float *found, float *above)
 {
     const sp_candidate_list *list = o->list;
     for (size_t kind = 0; kind < list->kind_count; kind++)
-#pragma omp parallel for num_threads(list->threads)
         for (size_t i = list->kind_start[kind]; i < list->kind_start[kind + 1]; i++)
             above[i] = list->weight[kind] > o->water ? 0 : (float)above_by(o, 0, (double)found[i], kind);
     o->target = sp_tuples_target_for(o, o->most, above, list->count);
 }
 
-/* What is left by prices as they were found, then by all. */
-static bool price_items(sp_tuples *o, const sp_multipliers *u, const float *found, uint8_t *alive,
-                        float *const price[BY_MULTIPLIERS], sp_error *error)
+/* The candidates that prices as they were found left, which are few, and what they are worth by all multipliers. */
+typedef struct {
+    size_t count;
+    size_t *position;             /* [count], rising */
+    size_t *kind_start;           /* [kind_count + 1] */
+    uint8_t *alive;               /* [count] */
+    float *price[BY_MULTIPLIERS]; /* [count] */
+} remaining;
+
+static void remaining_free(remaining *left)
+{
+    free(left->position);
+    free(left->kind_start);
+    free(left->alive);
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++)
+        free(left->price[k]);
+}
+
+static bool remaining_create(const sp_candidate_list *list, const uint8_t *alive, remaining *left, sp_error *error)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < list->count; i++)
+        count += alive[i];
+    left->position = malloc((count + 1) * sizeof *left->position);
+    left->kind_start = malloc((list->kind_count + 1) * sizeof *left->kind_start);
+    left->alive = malloc(count + 1);
+    bool done = left->position && left->kind_start && left->alive;
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
+        left->price[k] = malloc((count + 1) * sizeof *left->price[k]);
+        done &= left->price[k] != NULL;
+    }
+    for (size_t kind = 0; done && kind < list->kind_count; kind++) {
+        left->kind_start[kind] = left->count;
+        for (size_t i = list->kind_start[kind]; i < list->kind_start[kind + 1]; i++)
+            if (alive[i])
+                left->position[left->count++] = i;
+    }
+    if (!done)
+        return sp_fail_memory(error);
+    assert(left->count == count);
+    left->kind_start[list->kind_count] = count;
+    memset(left->alive, 1, count);
+    return true;
+}
+
+/* Prices what is left exactly; `price` [positions] is overwritten. */
+static bool price_by(sp_tuples *o, const sp_multipliers *u, const uint8_t *alive, remaining *left, float *price,
+                     sp_error *error)
+{
+    size_t k = o->priced++;
+    assert(k < BY_MULTIPLIERS);
+    o->rest[k] = o->cover->base + sp_cover_rest(o->cover, u);
+    if (!o->list->price(o->list->user, u, alive, price, error))
+        return false;
+    for (size_t i = 0; i < left->count; i++)
+        left->price[k][i] = price[left->position[i]];
+    return true;
+}
+
+/* Multipliers between the first two: what holds for both does for these, and the best completions by one need not be
+ * those by the other. */
+static void mix(sp_tuples *o, remaining *left)
+{
+    for (; o->priced < BY_MULTIPLIERS; o->priced++) {
+        double part = (double)(o->priced - 1) / (BY_MULTIPLIERS - 1);
+        o->rest[o->priced] = part * o->rest[0] + (1 - part) * o->rest[1];
+        for (size_t i = 0; i < left->count; i++) {
+            double mean = part * (double)left->price[0][i] + (1 - part) * (double)left->price[1][i];
+            left->price[o->priced][i] = nextafterf((float)mean, INFINITY);
+        }
+    }
+}
+
+/* Shuts out by all multipliers what could not be part of a layout above the target. */
+static void sift(sp_tuples *o, remaining *left)
+{
+    for (int round = 0; round < SIFTED; round++)
+        for (size_t k = 0; k < o->priced; k++) {
+            for (size_t i = 0; i < left->count; i++)
+                left->price[k][i] = left->alive[i] ? left->price[k][i] : 0;
+            fill_prices(o, k, left->kind_start, left->price[k]);
+            shut_out(o, k, left->kind_start, left->price[k], left->alive);
+        }
+    for (size_t k = 0; k < o->priced; k++)
+        fill_prices(o, k, left->kind_start, left->price[k]);
+}
+
+/* The candidates that the multipliers left. */
+static bool list_items(sp_tuples *o, const remaining *left, sp_error *error)
+{
+    const sp_candidate_list *list = o->list;
+    for (size_t i = 0; i < left->count; i++) {
+        size_t position = left->position[i], kind = sp_candidate_list_kind(list, position);
+        if (!left->alive[i])
+            continue;
+        if (!sp_grow(&o->items, &o->capacity, o->count + 1, sizeof *o->items))
+            return sp_fail_memory(error);
+        sp_tuple_item *own = &o->items[o->count++];
+        *own = (sp_tuple_item){.position = position,
+                               .kind = kind,
+                               .weight = list->weight[kind],
+                               .set = NO_SET,
+                               .port = list->run_port[sp_candidate_list_run(list, position)],
+                               .above = INFINITY};
+        for (size_t k = 0; k < o->priced; k++) {
+            double price = (double)left->price[k][i];
+            own->price[k] = left->price[k][i];
+            own->above = fminf(own->above, nextafterf((float)above_by(o, k, price, kind), INFINITY));
+        }
+    }
+    return true;
+}
+
+/* What is left, priced by the multipliers where they hold, by the areas, and by what lies between. */
+static bool price_left(sp_tuples *o, const sp_multipliers *u, const uint8_t *alive, float *price, sp_error *error)
 {
     sp_multipliers areas = {0};
-    bool done = sp_multipliers_create(o->cover, &areas, error);
-    /* inequalities hold for no more nozzles than they were made for */
-    bool holds = !u->inequalities || o->water / o->lightest <= u->inequalities->nozzles ||
-                 o->cover->nozzles <= u->inequalities->nozzles;
-    if (done && holds) {
-        o->rest[0] = o->cover->base + sp_cover_rest(o->cover, u);
-        fill_prices(o, 0, found);
-        raise_floor(o, found, price[0]);
-        shut_out(o, 0, found, alive);
-        done = price_by(o, u, alive, price[0], error);
+    remaining left = {0};
+    bool done = sp_multipliers_create(o->cover, &areas, error) && remaining_create(o->list, alive, &left, error) &&
+                (!u || price_by(o, u, alive, &left, price, error)) && price_by(o, &areas, alive, &left, price, error);
+    if (done && sp_cover_goes_on(o->cover)) {
+        if (u)
+            mix(o, &left);
+        o->least = o->target;
+        sift(o, &left);
+        done = list_items(o, &left, error);
     }
-    done = done && price_by(o, &areas, alive, price[o->priced], error);
     sp_multipliers_free(&areas);
-    if (!done || !sp_cover_goes_on(o->cover))
-        return done;
-    if (holds)
-        mix(o, price);
-    o->least = o->target;
-    sift(o, alive, price);
-    return list_items(o, alive, price, error);
+    remaining_free(&left);
+    return done;
 }
 
 bool sp_tuples_find_items(sp_tuples *o, const sp_multipliers *u, const float *found, sp_error *error)
 {
-    size_t positions = o->list->count + 1;
-    uint8_t *alive = malloc(positions);
-    float *price[BY_MULTIPLIERS];
-    bool done = alive != NULL;
-    for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
-        price[k] = calloc(positions, sizeof *price[k]);
-        done &= price[k] != NULL;
-    }
+    const sp_candidate_list *list = o->list;
+    /* inequalities hold for no more nozzles than they were made for */
+    bool holds = !u->inequalities || o->water / o->lightest <= u->inequalities->nozzles ||
+                 o->cover->nozzles <= u->inequalities->nozzles;
+    uint8_t *alive = malloc(list->count + 1);
+    float *price = calloc(list->count + 1, sizeof *price);
+    bool done = (alive && price) || sp_fail_memory(error);
     if (done)
-        memset(alive, 1, positions);
-    done = (done || sp_fail_memory(error)) && price_items(o, u, found, alive, price, error);
+        memset(alive, 1, list->count);
+    if (done && holds) {
+        o->rest[0] = o->cover->base + sp_cover_rest(o->cover, u);
+        fill_prices(o, 0, list->kind_start, found);
+        raise_floor(o, found, price);
+        shut_out(o, 0, list->kind_start, found, alive);
+    }
+    done = done && price_left(o, holds ? u : NULL, alive, price, error);
     free(alive);
-    for (size_t k = 0; k < BY_MULTIPLIERS; k++)
-        free(price[k]);
+    free(price);
     return done;
 }
