@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <math.h>
 
-#define SHARES_A_THREAD 300000
+#define SHARES_A_THREAD 120000
 
 /* A step is short and there are thousands: no more threads than have enough to do. With less, where others use the
  * cores too, they wait for each other longer than they work. */
@@ -25,29 +25,39 @@ static size_t lower_bound(const uint32_t *texel, size_t first, size_t end, size_
     return first;
 }
 
-/* Each thread adds to texels of its own, row after row, so that the sums do not depend on how many there are. */
-void sp_pdhg_add_up(sp_pdhg *h, const double *x)
+/* The texels of one part of so many. */
+static size_t part_start(const sp_pdhg *h, int part, int parts)
+{
+    return h->dual->texels * (size_t)part / (size_t)parts;
+}
+
+/* What x covers of the texels of one part, row after row, so that the sums do not depend on how many parts there are.
+ */
+static void add_up_part(sp_pdhg *h, const double *x, int part, int parts)
 {
     const sp_rows *rows = h->rows;
-    size_t texels = h->dual->texels;
+    size_t texels = h->dual->texels, first = part_start(h, part, parts), end = part_start(h, part + 1, parts);
+    for (size_t t = first; t < end; t++)
+        h->cover[t] = h->cover[texels + t] = 0;
+    for (size_t c = 0; c < rows->count; c++) {
+        float amount = (float)x[c];
+        if (amount == 0)
+            continue;
+        size_t i = lower_bound(rows->texel, rows->start[c], rows->start[c + 1], first);
+        size_t stop = lower_bound(rows->texel, i, rows->start[c + 1], end);
+        for (size_t k = i; k < stop; k++)
+            h->cover[rows->texel[k]] += sp_share_of(rows->share[k]) * amount;
+        for (size_t k = i; h->strengthened && k < stop; k++)
+            h->cover[texels + rows->texel[k]] += h->strengthened[k] * amount;
+    }
+}
+
+void sp_pdhg_add_up(sp_pdhg *h, const double *x)
+{
     int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
-    for (int part = 0; part < threads; part++) {
-        size_t first = texels * (size_t)part / (size_t)threads, end = texels * ((size_t)part + 1) / (size_t)threads;
-        for (size_t t = first; t < end; t++)
-            h->cover[t] = h->cover[texels + t] = 0;
-        for (size_t c = 0; c < rows->count; c++) {
-            float amount = (float)x[c];
-            if (amount == 0)
-                continue;
-            size_t i = lower_bound(rows->texel, rows->start[c], rows->start[c + 1], first);
-            size_t stop = lower_bound(rows->texel, i, rows->start[c + 1], end);
-            for (size_t k = i; k < stop; k++)
-                h->cover[rows->texel[k]] += sp_share_of(rows->share[k]) * amount;
-            for (size_t k = i; h->strengthened && k < stop; k++)
-                h->cover[texels + rows->texel[k]] += h->strengthened[k] * amount;
-        }
-    }
+    for (int part = 0; part < threads; part++)
+        add_up_part(h, x, part, threads);
 }
 
 /* What a row is worth where the iterations stand. Four sums side by side, so that none waits for the one before. */
@@ -63,21 +73,17 @@ static double worth(const uint32_t *texel, const float *share, size_t count, con
     return (total[0] + total[1]) + (total[2] + total[3]);
 }
 
-static void find_prices(sp_pdhg *h)
+static double price_of(const sp_pdhg *h, size_t row)
 {
     const sp_rows *rows = h->rows;
     const sp_multipliers *u = &h->dual->u;
-    int threads = threads_for(h);
-#pragma omp parallel for num_threads(threads) schedule(static, 16)
-    for (size_t c = 0; c < rows->count; c++) {
-        size_t first = rows->start[c], count = rows->start[c + 1] - first;
-        h->price[c] = 0;
-        if (h->tau[c] <= 0)
-            continue;
-        h->price[c] = worth(rows->texel + first, rows->share + first, count, u->plain);
-        if (h->strengthened)
-            h->price[c] += worth(rows->texel + first, h->strengthened + first, count, u->strengthened);
-    }
+    size_t first = rows->start[row], count = rows->start[row + 1] - first;
+    if (h->tau[row] <= 0)
+        return 0;
+    double price = worth(rows->texel + first, rows->share + first, count, u->plain);
+    if (h->strengthened)
+        price += worth(rows->texel + first, h->strengthened + first, count, u->strengthened);
+    return price;
 }
 
 /* A step in a texel's two multipliers, which together stay within its area. */
@@ -133,22 +139,36 @@ static void step_rows(sp_pdhg *h)
     }
 }
 
-void sp_pdhg_step(sp_pdhg *h)
+static void step_resources(sp_pdhg *h)
 {
-    sp_dual *dual = h->dual;
-    assert(dual->weight > 0 && isfinite(dual->weight));
-    find_prices(h);
-    step_rows(h);
-    sp_pdhg_add_up(h, h->x_bar);
-    int threads = threads_for(h);
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (size_t t = 0; t < dual->texels; t++)
-        step_texel(h, t);
+    double weight = h->dual->weight;
     for (size_t r = 0; r < h->resources; r++) {
         double beyond = h->use[r] - sp_pdhg_limit(h, r);
         h->resource_sum[r] += h->dual_resource[r];
         assert(h->dual_resource[r] >= 0 && h->sigma_resource[r] >= 0);
-        h->dual_resource[r] = fmax(0, h->dual_resource[r] + dual->weight * h->sigma_resource[r] * beyond);
+        h->dual_resource[r] = fmax(0, h->dual_resource[r] + weight * h->sigma_resource[r] * beyond);
     }
+}
+
+/* One team for all of a step: threads wait for one another thrice. */
+void sp_pdhg_step(sp_pdhg *h)
+{
+    int threads = threads_for(h);
+    assert(h->dual->weight > 0 && isfinite(h->dual->weight));
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp for schedule(static, 16)
+        for (size_t c = 0; c < h->rows->count; c++)
+            h->price[c] = price_of(h, c);
+#pragma omp single
+        step_rows(h);
+#pragma omp for schedule(static, 1)
+        for (int part = 0; part < threads; part++) {
+            add_up_part(h, h->x_bar, part, threads);
+            for (size_t t = part_start(h, part, threads); t < part_start(h, part + 1, threads); t++)
+                step_texel(h, t);
+        }
+    }
+    step_resources(h);
     h->since++;
 }
