@@ -1,7 +1,7 @@
 #include "search/coverage_matrix.h"
 
-#include "mesh/grow.h"
 #include "scoring/field.h"
+#include "scoring/scoring.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -44,45 +44,85 @@ static void draw_sample(const sp_search *search, size_t *sample, sp_coverage_mat
     }
 }
 
-/* Appends row r's field; returns how many entries there are then. */
-static size_t add_row(const size_t *sample, size_t r, const float *field, sp_coverage_matrix *matrix)
+/* One row's entries, malloc'd in one block. */
+typedef struct {
+    size_t count;
+    uint32_t *patch;
+    float *field, *film;
+} entries;
+
+/* Picks the sample's entries out of a field; false where memory ran out. */
+static bool pick(const size_t *sample, const float *field, const sp_coverage_matrix *matrix, entries *row)
 {
     const float *film = matrix->kept_film ? field + matrix->search->patch_count : NULL;
-    size_t used = matrix->start[r];
+    size_t count = 0;
+    for (size_t i = 0; i < matrix->patch_count; i++)
+        count += field[sample[i]] != 0 || (film && film[sample[i]] > FILM_LEAST);
+    *row = (entries){.patch = malloc(count * (sizeof *row->patch + 2 * sizeof *row->field) + 1)};
+    if (!row->patch)
+        return false;
+    row->field = (float *)(row->patch + count);
+    row->film = row->field + count;
     for (size_t i = 0; i < matrix->patch_count; i++)
         if (field[sample[i]] != 0 || (film && film[sample[i]] > FILM_LEAST)) {
-            matrix->patch[used] = (uint32_t)i;
+            row->patch[row->count] = (uint32_t)i;
             if (film)
-                matrix->film[used] = film[sample[i]];
-            matrix->field[used++] = field[sample[i]];
+                row->film[row->count] = film[sample[i]];
+            row->field[row->count++] = field[sample[i]];
         }
-    matrix->start[r + 1] = used;
-    return used;
+    return true;
 }
 
-static bool make_room(size_t room, sp_coverage_matrix *matrix)
+/* All rows' entries. */
+static bool find_rows(const size_t *sample, const sp_coverage_matrix *matrix, entries *rows, sp_error *error)
 {
-    return sp_reallocate(&matrix->patch, room, sizeof *matrix->patch) &&
-           sp_reallocate(&matrix->field, room, sizeof *matrix->field) &&
-           (!matrix->kept_film || sp_reallocate(&matrix->film, room, sizeof *matrix->film));
+    size_t fields = matrix->search->field_count + 1, lacking = 0;
+    int threads = sp_sweeper_threads(matrix->search);
+    float *scratch = malloc((size_t)threads * fields * sizeof *scratch);
+    if (!scratch)
+        return sp_fail_memory(error);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(+ : lacking)
+    for (size_t r = 0; r < matrix->row_count; r++) {
+        float *own = scratch + (size_t)omp_get_thread_num() * fields;
+        bool pool = r < matrix->pool->count;
+        if (pool)
+            sp_field_pose(matrix->search, matrix->pool->items[r], own);
+        lacking += !pick(sample, pool ? own : matrix->others[r - matrix->pool->count]->field, matrix, &rows[r]);
+    }
+    free(scratch);
+    return !lacking || sp_fail_memory(error);
 }
 
-static bool add_rows(const size_t *sample, float *field, sp_coverage_matrix *matrix, sp_error *error)
+/* Puts the rows' entries one after the other. */
+static bool join_rows(const entries *rows, sp_coverage_matrix *matrix, sp_error *error)
 {
-    for (size_t r = 0, used = 0, room = 0; r < matrix->row_count; r++) {
-        const float *from = field;
-        if (used + matrix->patch_count > room) {
-            room = 2 * (used + matrix->patch_count);
-            if (!make_room(room, matrix))
-                return sp_fail_memory(error);
-        }
-        if (r < matrix->pool->count)
-            sp_field_pose(matrix->search, matrix->pool->items[r], field);
-        else
-            from = matrix->others[r - matrix->pool->count]->field;
-        used = add_row(sample, r, from, matrix);
+    for (size_t r = 0; r < matrix->row_count; r++)
+        matrix->start[r + 1] = matrix->start[r] + rows[r].count;
+    size_t used = matrix->start[matrix->row_count];
+    matrix->patch = malloc((used + 1) * sizeof *matrix->patch);
+    matrix->field = malloc((used + 1) * sizeof *matrix->field);
+    matrix->film = matrix->kept_film ? malloc((used + 1) * sizeof *matrix->film) : NULL;
+    if (!matrix->patch || !matrix->field || (matrix->kept_film && !matrix->film))
+        return sp_fail_memory(error);
+    for (size_t r = 0; r < matrix->row_count; r++) {
+        size_t at = matrix->start[r];
+        memcpy(matrix->patch + at, rows[r].patch, rows[r].count * sizeof *matrix->patch);
+        memcpy(matrix->field + at, rows[r].field, rows[r].count * sizeof *matrix->field);
+        if (matrix->film)
+            memcpy(matrix->film + at, rows[r].film, rows[r].count * sizeof *matrix->film);
     }
     return true;
+}
+
+static bool add_rows(const size_t *sample, sp_coverage_matrix *matrix, sp_error *error)
+{
+    entries *rows = calloc(matrix->row_count + 1, sizeof *rows);
+    bool done =
+        (rows || sp_fail_memory(error)) && find_rows(sample, matrix, rows, error) && join_rows(rows, matrix, error);
+    for (size_t r = 0; rows && r < matrix->row_count; r++)
+        free(rows[r].patch);
+    free(rows);
+    return done;
 }
 
 /* The rows' entries by patch. */
@@ -121,22 +161,20 @@ bool sp_coverage_matrix_create(const sp_search *search, const sp_pool *pool, con
                                    .others = others,
                                    .patch_count = search->patch_count < 2 * SAMPLE ? search->patch_count : SAMPLE};
     size_t *sample = malloc((matrix->patch_count + 1) * sizeof *sample);
-    float *field = malloc((search->field_count + 1) * sizeof *field);
     matrix->area = calloc(matrix->patch_count + 1, sizeof *matrix->area);
     matrix->kept_hit = calloc(matrix->patch_count + 1, sizeof *matrix->kept_hit);
     matrix->kept_film = search->kept_film ? calloc(matrix->patch_count + 1, sizeof *matrix->kept_film) : NULL;
     matrix->kept_dry = calloc(matrix->patch_count + 1, sizeof *matrix->kept_dry);
     matrix->start = calloc(matrix->row_count + 1, sizeof *matrix->start);
-    bool done = sample && field && matrix->area && matrix->kept_hit && matrix->kept_dry && matrix->start &&
+    bool done = sample && matrix->area && matrix->kept_hit && matrix->kept_dry && matrix->start &&
                 (matrix->kept_film || !search->kept_film);
     if (done) {
         draw_sample(search, sample, matrix);
-        done = add_rows(sample, field, matrix, error) && add_columns(matrix, error);
+        done = add_rows(sample, matrix, error) && add_columns(matrix, error);
     } else {
         sp_fail_memory(error);
     }
     free(sample);
-    free(field);
     if (!done)
         sp_coverage_matrix_free(matrix);
     return done;
