@@ -40,8 +40,8 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials);
 /* Searches locally from the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that
  * covers most, if that is more than it does itself. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *best);
-/* What the trials' layouts are measured as, as far as ranks have done that ahead (see sp_front_measure_ahead);
- * `better`: of those that got better and may count. [trials->count], the caller frees; NULL on error. */
+/* What the trials' layouts are measured as, all at once (see sp_front_measure_ahead); `better`: of those that got
+ * better and may count. [trials->count], the caller frees; NULL on error. */
 sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better);
 /* Keeps those of which `kept` [count] is true, in their order. */
 void sp_trials_keep(sp_trials *trials, const bool *kept);

@@ -124,23 +124,40 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial
     return true;
 }
 
+/* Those that are this rank's, at once. */
+static bool measure_own(const sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
+                        sp_front_point *points, sp_error *error)
+{
+    sp_error failure = {0};
+    /* jets tell the caller how far they are, which only one thread may */
+    bool jets = sp_evaluator_fidelity(front->fine)->method == SP_METHOD_FORWARD;
+    int threads = jets ? 1 : sp_threads(&search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < count; i++) {
+        sp_error mine = {0};
+        points[i] = (sp_front_point){.area = -1};
+        if (partials[i] && sp_ranks_mine(search->options->run.ranks, i) &&
+            !measure(front, search, partials[i], &points[i], &mine)) {
+#pragma omp critical(sp_front_failure)
+            failure = mine;
+        }
+    }
+    return failure.kind == SP_OK ||
+           sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
 bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
                             size_t count, sp_front_point *points, sp_error *error)
 {
     sp_ranks *ranks = search->options->run.ranks;
     sp_told told = {0};
     sp_heard heard;
-    bool done = true;
-    for (size_t i = 0; i < count; i++)
-        points[i] = (sp_front_point){.area = -1};
-    for (size_t i = 0; done && sp_ranks_count(ranks) > 1 && i < count; i++)
-        if (partials[i] && sp_ranks_mine(ranks, i)) {
-            done = measure(front, search, partials[i], &points[i], error);
+    if (!measure_own(front, search, partials, count, points, error))
+        return false;
+    for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
+        if (partials[i] && sp_ranks_mine(ranks, i))
             sp_tell(&told, &points[i], sizeof points[i]);
-        }
-    if (!done)
-        sp_told_free(&told);
-    if (!done || !sp_ranks_gather(ranks, "points", &told, &heard, error))
+    if (!sp_ranks_gather(ranks, "points", &told, &heard, error))
         return false;
     for (size_t i = 0; i < count; i++)
         if (partials[i] && !sp_ranks_mine(ranks, i))

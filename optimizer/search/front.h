@@ -39,8 +39,8 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 /* Measures the layout, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                       sp_error *error);
-/* Of several ranks each measures some of the layouts, NULL for none, and notes nothing: points [count], of which those
- * that nobody has measured, and all where there is but one rank, have an area of -1. */
+/* Measures layouts, NULL for none, at once, of several ranks each some of them, and notes nothing: points [count], of
+ * which those that nobody has measured have an area of -1. */
 bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
                             size_t count, sp_front_point *points, sp_error *error);
 /* As sp_front_measure, with what measuring ahead gave, if it gave anything. */
