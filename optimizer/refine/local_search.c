@@ -303,19 +303,15 @@ static void take(const sp_local_search *local, int thread, sp_trial *trials, siz
 }
 
 /* Every trial, or those that are better; the last, which have most nozzles, first, so that no thread is left alone with
- * one of these. A trial alone is taken outside of a parallel region, so that what it does may have all threads. */
+ * one of these. Threads that are left without any take parts of the others' (team.h). */
 static bool for_each(const sp_local_search *local, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
     sp_ranks_part(ranks_of(local));
-    if (count == 1) {
-        take(local, 0, trials, 0, better, step, &failure);
-    } else {
 #pragma omp parallel for num_threads(local->threads) schedule(dynamic, 1)
-        for (size_t k = 0; k < count; k++)
-            take(local, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
-    }
+    for (size_t k = 0; k < count; k++)
+        take(local, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
     sp_ranks_rejoin(ranks_of(local));
     if (failure.kind == SP_OK)
         return true;

@@ -255,13 +255,13 @@ static bool has_place(const sp_pose_parameters *parameters)
 }
 
 void sp_smooth_arrivals_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight,
-                            sp_width width, const double *values, const sp_smooth_arrivals *arrivals,
-                            const sp_brought *brought)
+                            sp_width width, const double *values, size_t first, size_t end,
+                            const sp_smooth_arrivals *arrivals, const sp_brought *brought)
 {
     bool slopes = arrivals->alone_slope != NULL;
     sp_posed posed = pose(search, parameters, sight, width, values, slopes);
     bool flies = posed.moved || (slopes && has_place(parameters));
-    for (size_t i = 0; i < sight->count; i++) {
+    for (size_t i = first; i < end; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_borne borne = {0};
         bool there = bear(&posed, seen, flies, slopes, &borne);

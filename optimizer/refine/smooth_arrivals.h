@@ -26,11 +26,11 @@ typedef struct {
     double *amount, *slope;
 } sp_brought;
 
-/* At these values of the pose parameters [SP_UNKNOWNS], visibility as in `sight`. And what is brought, where that is
- * asked for. */
+/* Sets those of the sight's arrivals from `first` to before `end`, at these values of the pose parameters
+ * [SP_UNKNOWNS], visibility as in `sight`. And what is brought, where that is asked for. */
 void sp_smooth_arrivals_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight,
-                            sp_width width, const double *values, const sp_smooth_arrivals *arrivals,
-                            const sp_brought *brought);
+                            sp_width width, const double *values, size_t first, size_t end,
+                            const sp_smooth_arrivals *arrivals, const sp_brought *brought);
 
 /* Logistic function. */
 static inline double sp_smooth_step(double x)

@@ -3,12 +3,14 @@
 #include "ceres/least_squares.h"
 #include "refine/smooth_film.h"
 #include "scoring/footprints.h"
+#include "team.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define ITERATIONS 8
 #define TOLERANCE 1e-6
+#define ARRIVALS_A_PART 1024
 #define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
 #define WATER_PENALTY 10.0 /* beside the root of the share that is dry, per share of water above the budget */
 #define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
@@ -50,36 +52,72 @@ static void values_at(const sp_smooth_nozzle *own, const double *x, double value
     }
 }
 
+/* What all threads that set arrivals share. */
+typedef struct {
+    sp_smooth_objective *smooth;
+    const double *x;
+    bool slopes;
+    size_t parts_each; /* of every nozzle's arrivals */
+} setting;
+
+/* Half of the range of unknown k, and how fast its value changes with x. */
+static double chain_of(const sp_smooth_nozzle *own, const double *x, size_t k)
+{
+    const sp_pose_parameters *parameters = own->parameters;
+    return 0.5 * (parameters->high[k] - parameters->low[k]) * cos(x[own->first + k]);
+}
+
+/* A part of a nozzle's arrivals. */
+static void set_part(void *user, size_t part)
+{
+    const setting *setting = user;
+    sp_smooth_objective *smooth = setting->smooth;
+    size_t i = part / setting->parts_each, piece = part % setting->parts_each;
+    sp_smooth_nozzle *own = &smooth->nozzles[i];
+    size_t count = own->sight->count, first = count * piece / setting->parts_each,
+           end = count * (piece + 1) / setting->parts_each;
+    double values[SP_UNKNOWNS];
+    values_at(own, setting->x, values);
+    sp_brought brought = {0};
+    if (smooth->film.count)
+        brought = (sp_brought){smooth->film.runs[i].brought.amount,
+                               setting->slopes ? smooth->film.runs[i].brought.slope : NULL};
+    sp_smooth_arrivals arrivals = own->arrivals;
+    if (!setting->slopes)
+        arrivals.alone_slope = arrivals.flux_slope = NULL;
+    sp_smooth_arrivals_set(smooth->search, own->parameters, own->sight, smooth->width, values, first, end, &arrivals,
+                           smooth->film.count ? &brought : NULL);
+    for (size_t k = 0; setting->slopes && k < own->parameters->count; k++) {
+        double chain = chain_of(own, setting->x, k);
+        for (size_t a = k * count + first; a < k * count + end; a++) {
+            arrivals.alone_slope[a] *= chain;
+            arrivals.flux_slope[a] *= chain;
+        }
+    }
+}
+
+/* A nozzle's film, once all its arrivals are set. */
+static void set_film(void *user, size_t i)
+{
+    const setting *setting = user;
+    const sp_smooth_nozzle *own = &setting->smooth->nozzles[i];
+    double chain[SP_UNKNOWNS];
+    for (size_t k = 0; setting->slopes && k < own->parameters->count; k++)
+        chain[k] = chain_of(own, setting->x, k);
+    sp_smooth_film_set(&setting->smooth->film, i, setting->slopes ? chain : NULL);
+}
+
 /* The smooth arrivals at x and, where asked for, their derivatives by x. */
 static void set_arrivals(sp_smooth_objective *smooth, const double *x, bool slopes)
 {
     int threads = sp_threads(&smooth->search->options->run);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < smooth->nozzle_count; i++) {
-        sp_smooth_nozzle *own = &smooth->nozzles[i];
-        const sp_pose_parameters *parameters = own->parameters;
-        double values[SP_UNKNOWNS];
-        values_at(own, x, values);
-        double chain[SP_UNKNOWNS];
-        sp_brought brought = {0};
-        if (smooth->film.count)
-            brought =
-                (sp_brought){smooth->film.runs[i].brought.amount, slopes ? smooth->film.runs[i].brought.slope : NULL};
-        sp_smooth_arrivals arrivals = own->arrivals;
-        if (!slopes)
-            arrivals.alone_slope = arrivals.flux_slope = NULL;
-        sp_smooth_arrivals_set(smooth->search, parameters, own->sight, smooth->width, values, &arrivals,
-                               smooth->film.count ? &brought : NULL);
-        for (size_t k = 0; slopes && k < parameters->count; k++) {
-            chain[k] = 0.5 * (parameters->high[k] - parameters->low[k]) * cos(x[own->first + k]);
-            for (size_t a = k * own->sight->count; a < (k + 1) * own->sight->count; a++) {
-                arrivals.alone_slope[a] *= chain[k];
-                arrivals.flux_slope[a] *= chain[k];
-            }
-        }
-        if (smooth->film.count)
-            sp_smooth_film_set(&smooth->film, i, slopes ? chain : NULL);
-    }
+    size_t most = 0;
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        most = smooth->nozzles[i].sight->count > most ? smooth->nozzles[i].sight->count : most;
+    setting setting = {smooth, x, slopes, most / ARRIVALS_A_PART + 1};
+    sp_team_do(smooth->nozzle_count * setting.parts_each, threads, set_part, &setting);
+    if (smooth->film.count)
+        sp_team_do(smooth->nozzle_count, threads, set_film, &setting);
 }
 
 /* What is missing at a patch: the product of what each nozzle alone, all hits together, and films leave dry. */
@@ -234,16 +272,29 @@ static void sum_chunk(sp_smooth_objective *smooth, size_t chunk, bool slopes, do
     smooth->chunk_cost[chunk] = cost;
 }
 
+/* What all threads that sum share. */
+typedef struct {
+    sp_smooth_objective *smooth;
+    bool slopes;
+    double *rows;    /* [CHUNKS][unknowns] */
+    size_t *columns; /* the same */
+} summing;
+
+static void sum_part(void *user, size_t chunk)
+{
+    const summing *summing = user;
+    size_t at = chunk * summing->smooth->unknowns;
+    sum_chunk(summing->smooth, chunk, summing->slopes, &summing->rows[at], &summing->columns[at]);
+}
+
 static bool sum_patches(sp_smooth_objective *smooth, bool slopes)
 {
     size_t n = smooth->unknowns;
-    double *rows = calloc(CHUNKS * n, sizeof *rows);
-    size_t *columns = malloc(CHUNKS * n * sizeof *columns);
-    int threads = sp_threads(&smooth->search->options->run);
-    if (rows && columns) {
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-        for (size_t chunk = 0; chunk < CHUNKS; chunk++)
-            sum_chunk(smooth, chunk, slopes, &rows[chunk * n], &columns[chunk * n]);
+    summing summing = {smooth, slopes, calloc(CHUNKS * n, sizeof *summing.rows),
+                       malloc(CHUNKS * n * sizeof *summing.columns)};
+    bool done = summing.rows && summing.columns;
+    if (done) {
+        sp_team_do(CHUNKS, sp_threads(&smooth->search->options->run), sum_part, &summing);
         for (size_t chunk = 1; chunk < CHUNKS; chunk++) {
             smooth->chunk_cost[0] += smooth->chunk_cost[chunk];
             for (size_t i = 0; slopes && i < n; i++)
@@ -252,9 +303,8 @@ static bool sum_patches(sp_smooth_objective *smooth, bool slopes)
                 smooth->chunk_normal[i] += smooth->chunk_normal[chunk * n * n + i];
         }
     }
-    bool done = rows && columns;
-    free(rows);
-    free(columns);
+    free(summing.rows);
+    free(summing.columns);
     return done;
 }
 

@@ -5,12 +5,16 @@
 #include "free_share.h"
 #include "movers.h"
 #include "passing.h"
+#include "team.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define CHUNK 4096     /* patches whose flights are traced together: the tracer likes many of one origin */
-#define CHUNK_DRAG 256 /* the same with drag, where each is traced for itself */
+/* Patches whose flights are traced together: the tracer likes many of one origin, and threads like some chunks each. */
+#define CHUNKS 16
+#define CHUNK_LEAST 1024
+#define CHUNK_MOST 4096
+#define CHUNK_DRAG 256 /* with drag, where each is traced for itself */
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, sp_ray_queue *queue)
 {
@@ -25,11 +29,12 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, s
         sp_gather_flights(&own, &target);
 }
 
-/* A chunk's arrivals, malloc'd; NULL where there are none, or where memory ran out. */
+/* A chunk's arrivals, malloc'd; NULL where there are none. */
 typedef struct harvest {
     size_t count;
     sp_arrival *arrivals;
     sp_work work;
+    bool failed; /* memory ran out */
 } harvest;
 
 /* What is in the way of the queue's rays, of what stands. */
@@ -70,8 +75,9 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         if (!arrival->blocked || aim->blocked)
             queue->arrivals[kept++] = *arrival;
     }
-    *harvest =
-        (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {queue->places, queue->ways}};
+    *harvest = (struct harvest){.count = kept,
+                                .arrivals = kept ? malloc(kept * sizeof *harvest->arrivals) : NULL,
+                                .work = {queue->places, queue->ways}};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, queue->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;
@@ -86,29 +92,44 @@ static extent extent_of(const sp_source *source, const sp_aim *aim)
 {
     size_t patches = source->evaluator->patches.count, end = aim->end < patches ? aim->end : patches;
     size_t count = aim->first < end ? end - aim->first : 0;
-    size_t chunk = source->fronts ? CHUNK_DRAG : CHUNK;
+    size_t chunk = count / CHUNKS < CHUNK_LEAST ? CHUNK_LEAST : count / CHUNKS;
+    chunk = source->fronts ? CHUNK_DRAG : chunk < CHUNK_MOST ? chunk : CHUNK_MOST;
     return (extent){aim->first, count, chunk, (count + chunk - 1) / chunk};
+}
+
+/* What all threads that trace share. */
+typedef struct {
+    const sp_source *source;
+    const sp_aim *aim;
+    extent extent;
+    sp_ray_queue *queues; /* by thread */
+    harvest *harvests;    /* by chunk */
+} reaping;
+
+static void reap_chunk(void *user, size_t chunk)
+{
+    const reaping *own = user;
+    const extent *extent = &own->extent;
+    size_t first = chunk * extent->chunk, end = first + extent->chunk;
+    end = end < extent->count ? end : extent->count;
+    own->harvests[chunk].failed =
+        !reap(own->source, own->aim, (uint32_t)(extent->first + first), (uint32_t)(extent->first + end),
+              &own->queues[omp_get_thread_num()], &own->harvests[chunk]);
 }
 
 static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, harvest *harvests)
 {
-    int threads = omp_in_parallel() ? 1 : sp_thread_count(source->evaluator->setup.run.threads);
-    if ((size_t)threads > extent.chunks)
-        threads = extent.chunks ? (int)extent.chunks : 1;
-    sp_ray_queue *queues = calloc((size_t)threads, sizeof *queues);
-    if (!queues)
+    int threads = sp_thread_count(source->evaluator->setup.run.threads), size = sp_team_size(extent.chunks, threads);
+    reaping reaping = {source, aim, extent, calloc((size_t)size, sizeof *reaping.queues), harvests};
+    if (!reaping.queues)
         return false;
+    sp_team_do(extent.chunks, threads, reap_chunk, &reaping);
+    for (int i = 0; i < size; i++)
+        sp_ray_queue_free(&reaping.queues[i]);
+    free(reaping.queues);
     bool done = true;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
-    for (size_t i = 0; i < extent.chunks; i++) {
-        size_t first = i * extent.chunk, end = first + extent.chunk;
-        end = end < extent.count ? end : extent.count;
-        done = done && reap(source, aim, (uint32_t)(extent.first + first), (uint32_t)(extent.first + end),
-                            &queues[omp_get_thread_num()], &harvests[i]);
-    }
-    for (int i = 0; i < threads; i++)
-        sp_ray_queue_free(&queues[i]);
-    free(queues);
+    for (size_t i = 0; i < extent.chunks; i++)
+        done = done && !harvests[i].failed;
     return done;
 }
 

@@ -102,7 +102,7 @@ static void look(const bench *b, const sp_pose_parameters *parameters, const sp_
     const sp_smooth_arrivals arrivals = {l->value[0], slopes ? l->slope[0] : NULL, l->value[1],
                                          slopes ? l->slope[1] : NULL};
     const sp_brought brought = {l->value[2], slopes ? l->slope[2] : NULL};
-    sp_smooth_arrivals_set(&b->ready.search, parameters, sight, width, values, &arrivals, &brought);
+    sp_smooth_arrivals_set(&b->ready.search, parameters, sight, width, values, 0, sight->count, &arrivals, &brought);
 }
 
 /* Largest difference between slopes and central differences over the largest slope, for one unknown. */
