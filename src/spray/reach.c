@@ -11,8 +11,8 @@
 #include <string.h>
 
 /* Patches whose flights are traced together: the tracer likes many of one origin, and threads like some chunks each. */
-#define CHUNKS 16
-#define CHUNK_LEAST 1024
+#define CHUNKS 2 /* for every thread */
+#define CHUNK_LEAST 512
 #define CHUNK_MOST 4096
 #define CHUNK_DRAG 256 /* with drag, where each is traced for itself */
 
@@ -92,8 +92,9 @@ static extent extent_of(const sp_source *source, const sp_aim *aim)
 {
     size_t patches = source->evaluator->patches.count, end = aim->end < patches ? aim->end : patches;
     size_t count = aim->first < end ? end - aim->first : 0;
-    size_t chunk = count / CHUNKS < CHUNK_LEAST ? CHUNK_LEAST : count / CHUNKS;
-    chunk = source->fronts ? CHUNK_DRAG : chunk < CHUNK_MOST ? chunk : CHUNK_MOST;
+    size_t chunks = CHUNKS * (size_t)sp_thread_count(source->evaluator->setup.run.threads), chunk = count / chunks + 1;
+    chunk = chunk < CHUNK_LEAST ? CHUNK_LEAST : chunk < CHUNK_MOST ? chunk : CHUNK_MOST;
+    chunk = source->fronts ? CHUNK_DRAG : chunk;
     return (extent){aim->first, count, chunk, (count + chunk - 1) / chunk};
 }
 
