@@ -1,7 +1,7 @@
 #include "refine/smooth_objective.h"
 
 #include "ceres/least_squares.h"
-#include "refine/smooth_film.h"
+#include "refine/smooth_sum.h"
 #include "scoring/footprints.h"
 #include "team.h"
 
@@ -10,36 +10,9 @@
 
 #define ITERATIONS 8
 #define TOLERANCE 1e-6
-#define ARRIVALS_A_PART 1024
-#define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
-#define WATER_PENALTY 10.0 /* beside the root of the share that is dry, per share of water above the budget */
-#define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
-#define SURE 16.0          /* widths above the threshold where nothing is missing any more */
-
-typedef struct {
-    const sp_pose_parameters *parameters;
-    const sp_sight *sight;
-    size_t first; /* of its unknowns */
-    sp_smooth_arrivals arrivals;
-} sp_smooth_nozzle;
-
-/* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
-typedef struct {
-    uint32_t nozzle, arrival;
-} sp_link;
-
-typedef struct {
-    const sp_search *search;
-    sp_width width;
-    double budget;
-    size_t nozzle_count, unknowns;
-    sp_smooth_nozzle *nozzles;
-    size_t *start; /* [patch_count + 1] */
-    sp_link *links;
-    sp_smooth_film film;                                /* of no nozzles where film is not asked for */
-    double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
-    sp_error *error; /* of the solver, which does not know why residuals are missing: what is told first stays */
-} sp_smooth_objective;
+#define ARRIVALS_A_PART 1024 /* some 200 µs of work */
+#define WATER_PENALTY 10.0   /* beside the root of the share that is dry, per share of water above the budget */
+#define EDGE_LEAST 0.2       /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
 
 /* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
  * telling Ceres, which searches long where bounds are many. */
@@ -120,194 +93,6 @@ static void set_arrivals(sp_smooth_objective *smooth, const double *x, bool slop
         sp_team_do(smooth->nozzle_count, threads, set_film, &setting);
 }
 
-/* What is missing at a patch: the product of what each nozzle alone, all hits together, and films leave dry. */
-typedef struct {
-    double weight;   /* root of the patch's area, as a share of all: the solver's tolerances are absolute, and must not
-                      * know the unit of length */
-    double alone;    /* what no nozzle covers alone */
-    double together; /* what all hits together do not cover; 1 where they do not add up */
-    double film;     /* 1 where it is not asked for */
-    double by_flux;  /* how `together` changes per flux */
-    double by_film;  /* how `film` changes per film of all nozzles */
-} sp_smooth_miss;
-
-/* The link behind the last of the same nozzle's at a patch. */
-static size_t end_of_group(const sp_smooth_objective *smooth, size_t patch, size_t first)
-{
-    size_t end = first + 1;
-    while (end < smooth->start[patch + 1] && smooth->links[end].nozzle == smooth->links[first].nozzle)
-        end++;
-    return end;
-}
-
-/* The share of a patch that a nozzle's arrivals leave dry, links `first` to before `end`. */
-static double left_dry(const sp_smooth_objective *smooth, size_t first, size_t end)
-{
-    double cover = 0;
-    for (size_t l = first; l < end; l++)
-        cover += smooth->nozzles[smooth->links[l].nozzle].arrivals.alone[smooth->links[l].arrival];
-    return cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
-}
-
-static void miss_of_hits(const sp_smooth_objective *smooth, size_t patch, sp_smooth_miss *at)
-{
-    const sp_search *search = smooth->search;
-    double sum = (double)search->kept_hit[patch];
-    at->together = 1;
-    at->alone = sum >= 1 ? 0 : (double)search->kept_dry[patch];
-    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
-        end = end_of_group(smooth, patch, l);
-        at->alone *= left_dry(smooth, l, end);
-        for (size_t k = l; k < end; k++)
-            sum += smooth->nozzles[smooth->links[k].nozzle].arrivals.flux[smooth->links[k].arrival];
-    }
-    if (search->single || search->threshold <= 0 || sum <= 0)
-        return;
-    double widths = log(sum) / smooth->width.coverage;
-    if (widths < -SURE)
-        return;
-    double cover = widths > SURE ? 1 : sp_smooth_step(widths);
-    at->together = 1 - cover;
-    at->by_flux = -cover * (1 - cover) / (smooth->width.coverage * sum);
-}
-
-/* What all but this nozzle leave dry alone. */
-static double alone_but(const sp_smooth_objective *smooth, size_t patch, uint32_t nozzle)
-{
-    double miss = smooth->search->kept_hit[patch] >= 1 ? 0 : (double)smooth->search->kept_dry[patch];
-    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
-        end = end_of_group(smooth, patch, l);
-        if (smooth->links[l].nozzle != nozzle)
-            miss *= left_dry(smooth, l, end);
-    }
-    return miss;
-}
-
-/* A patch's row of the Jacobian in the making, all zero but for the columns that are listed. */
-typedef struct {
-    double *row;
-    size_t *columns, used;
-} sp_smooth_row;
-
-static void add_slope(sp_smooth_row *row, size_t column, double slope)
-{
-    if (slope == 0)
-        return;
-    if (row->row[column] == 0)
-        row->columns[row->used++] = column;
-    row->row[column] += slope;
-}
-
-/* Adds what the films' slopes make of the miss, `by_film` that of all films together. */
-static void add_film(const sp_smooth_objective *smooth, size_t patch, double by_film, sp_smooth_row *row)
-{
-    for (size_t i = 0; by_film != 0 && i < smooth->film.count; i++) {
-        const sp_smooth_runoff *runs = &smooth->film.runs[i];
-        for (size_t k = 0; k < runs->parameters->count; k++)
-            add_slope(row, runs->first + k, by_film * (double)runs->slope[k * smooth->search->patch_count + patch]);
-    }
-}
-
-/* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
-static void add_row(const sp_smooth_objective *smooth, size_t patch, const sp_smooth_miss *at, double *row,
-                    size_t *columns, double *gradient, double *normal)
-{
-    size_t n = smooth->unknowns;
-    sp_smooth_row own_row = {row, columns, 0};
-    double weight = at->weight, miss = at->alone * at->together * at->film;
-    for (size_t l = smooth->start[patch]; l < smooth->start[patch + 1]; l++) {
-        const sp_smooth_nozzle *own = &smooth->nozzles[smooth->links[l].nozzle];
-        size_t arrival = smooth->links[l].arrival;
-        if (own->arrivals.alone[arrival] <= 0 && own->arrivals.flux[arrival] <= 0)
-            continue;
-        double by_alone = -weight * at->together * at->film * alone_but(smooth, patch, smooth->links[l].nozzle);
-        double by_flux = weight * at->alone * at->film * at->by_flux;
-        for (size_t k = 0; k < own->parameters->count; k++) {
-            size_t slope = k * own->sight->count + arrival;
-            add_slope(&own_row, own->first + k,
-                      by_alone * own->arrivals.alone_slope[slope] + by_flux * own->arrivals.flux_slope[slope]);
-        }
-    }
-    add_film(smooth, patch, weight * at->alone * at->together * at->by_film, &own_row);
-    size_t used = own_row.used;
-    for (size_t i = 0; i < used; i++) {
-        gradient[columns[i]] += row[columns[i]] * weight * miss;
-        for (size_t j = 0; j < used; j++)
-            if (columns[j] <= columns[i])
-                normal[columns[i] * n + columns[j]] += row[columns[i]] * row[columns[j]];
-    }
-    for (size_t i = 0; i < used; i++)
-        row[columns[i]] = 0;
-}
-
-static sp_smooth_miss miss_at(const sp_smooth_objective *smooth, size_t patch)
-{
-    sp_smooth_miss at = {.weight = sqrt((double)smooth->search->area[patch]), .film = 1};
-    miss_of_hits(smooth, patch, &at);
-    if (!smooth->film.count)
-        return at;
-    at.film = 1 - sp_smooth_film_cover(&smooth->film, patch, &at.by_film);
-    at.by_film = -at.by_film;
-    return at;
-}
-
-/* Sums one chunk of the patches. `row` (all zero) and `columns` are the chunk's own scratch. */
-static void sum_chunk(sp_smooth_objective *smooth, size_t chunk, bool slopes, double *row, size_t *columns)
-{
-    size_t n = smooth->unknowns, patches = smooth->search->patch_count;
-    double *gradient = &smooth->chunk_gradient[chunk * n], *normal = &smooth->chunk_normal[chunk * n * n], cost = 0;
-    if (slopes) {
-        memset(gradient, 0, n * sizeof *gradient);
-        memset(normal, 0, n * n * sizeof *normal);
-    }
-    for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
-        if ((smooth->start[p] == smooth->start[p + 1] && !smooth->film.count) || smooth->search->area[p] <= 0)
-            continue;
-        sp_smooth_miss at = miss_at(smooth, p);
-        double miss = at.alone * at.together * at.film;
-        cost += at.weight * at.weight * miss * miss;
-        if (slopes && miss > 0)
-            add_row(smooth, p, &at, row, columns, gradient, normal);
-    }
-    smooth->chunk_cost[chunk] = cost;
-}
-
-/* What all threads that sum share. */
-typedef struct {
-    sp_smooth_objective *smooth;
-    bool slopes;
-    double *rows;    /* [CHUNKS][unknowns] */
-    size_t *columns; /* the same */
-} summing;
-
-static void sum_part(void *user, size_t chunk)
-{
-    const summing *summing = user;
-    size_t at = chunk * summing->smooth->unknowns;
-    sum_chunk(summing->smooth, chunk, summing->slopes, &summing->rows[at], &summing->columns[at]);
-}
-
-static bool sum_patches(sp_smooth_objective *smooth, bool slopes)
-{
-    size_t n = smooth->unknowns;
-    summing summing = {smooth, slopes, calloc(CHUNKS * n, sizeof *summing.rows),
-                       malloc(CHUNKS * n * sizeof *summing.columns)};
-    bool done = summing.rows && summing.columns;
-    if (done) {
-        sp_team_do(CHUNKS, sp_threads(&smooth->search->options->run), sum_part, &summing);
-        for (size_t chunk = 1; chunk < CHUNKS; chunk++) {
-            smooth->chunk_cost[0] += smooth->chunk_cost[chunk];
-            for (size_t i = 0; slopes && i < n; i++)
-                smooth->chunk_gradient[i] += smooth->chunk_gradient[chunk * n + i];
-            for (size_t i = 0; slopes && i < n * n; i++)
-                smooth->chunk_normal[i] += smooth->chunk_normal[chunk * n * n + i];
-        }
-    }
-    free(summing.rows);
-    free(summing.columns);
-    return done;
-}
-
 /* Water above the budget as one more residual. */
 static void add_water(sp_smooth_objective *smooth, const double *x, bool slopes)
 {
@@ -386,7 +171,7 @@ static bool evaluate(void *user, const double *x, double *residuals, double *jac
     sp_smooth_objective *smooth = user;
     size_t n = smooth->unknowns;
     set_arrivals(smooth, x, jacobian != NULL);
-    if (!sum_patches(smooth, jacobian != NULL))
+    if (!sp_smooth_sum(smooth, jacobian != NULL))
         return sp_fail_memory(smooth->error);
     add_water(smooth, x, jacobian != NULL);
     if (!isfinite(smooth->chunk_cost[0]))
@@ -416,7 +201,7 @@ static bool link_patches(sp_smooth_objective *smooth, sp_error *error)
     for (size_t i = 0; i < smooth->nozzle_count; i++)
         for (size_t a = 0; a < smooth->nozzles[i].sight->count; a++)
             smooth->links[smooth->start[smooth->nozzles[i].sight->seen[a].patch + 1]++] =
-                (sp_link){(uint32_t)i, (uint32_t)a};
+                (sp_smooth_link){(uint32_t)i, (uint32_t)a};
     return true;
 }
 
@@ -439,9 +224,9 @@ static bool smooth_create(sp_smooth_objective *smooth, const sp_pose_parameters 
                                          numbers + most * (2 + SP_UNKNOWNS)};
     }
     size_t n = smooth->unknowns;
-    smooth->chunk_cost = calloc(CHUNKS, sizeof *smooth->chunk_cost);
-    smooth->chunk_gradient = calloc(CHUNKS * n, sizeof *smooth->chunk_gradient);
-    smooth->chunk_normal = calloc(CHUNKS * n, n * sizeof *smooth->chunk_normal);
+    smooth->chunk_cost = calloc(SP_SMOOTH_CHUNKS, sizeof *smooth->chunk_cost);
+    smooth->chunk_gradient = calloc(SP_SMOOTH_CHUNKS * n, sizeof *smooth->chunk_gradient);
+    smooth->chunk_normal = calloc(SP_SMOOTH_CHUNKS * n, n * sizeof *smooth->chunk_normal);
     if (!smooth->chunk_cost || !smooth->chunk_gradient || !smooth->chunk_normal)
         return sp_fail_memory(error);
     return link_patches(smooth, error);
