@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <math.h>
 
-#define SHARES_A_THREAD 120000
+#define SHARES_A_THREAD 80000
 
 /* A step is short and there are thousands: no more threads than have enough to do. With less, where others use the
  * cores too, they wait for each other longer than they work. */
@@ -157,7 +157,7 @@ void sp_pdhg_step(sp_pdhg *h)
     assert(h->dual->weight > 0 && isfinite(h->dual->weight));
 #pragma omp parallel num_threads(threads)
     {
-#pragma omp for schedule(static, 16)
+#pragma omp for schedule(static, 4)
         for (size_t c = 0; c < h->rows->count; c++)
             h->price[c] = price_of(h, c);
 #pragma omp single
