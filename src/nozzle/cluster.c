@@ -1,5 +1,5 @@
 /* Clusters: several patterns on one body, such as a spray ball with its holes. */
-#include <sprayplan/nozzle.h>
+#include "pattern.h"
 
 static double member_angle(const sp_member *member)
 {
@@ -7,15 +7,26 @@ static double member_angle(const sp_member *member)
     return atan2(hypot(member->axis.x, member->axis.y), member->axis.z) + sp_spray_reach(&spray);
 }
 
+static double reach_of(const sp_nozzle_type *cluster)
+{
+    double widest = 0;
+    for (size_t i = 0; i < cluster->member_count; i++)
+        widest = fmax(widest, member_angle(&cluster->members[i]));
+    return fmin(widest, M_PI);
+}
+
+double sp_type_reach(const sp_nozzle_type *type, double angle)
+{
+    sp_spray spray = sp_spray_create(type, angle);
+    return type->pattern == SP_PATTERN_CLUSTER ? reach_of(type) : sp_spray_reach(&spray);
+}
+
 double sp_nozzle_angle(const sp_nozzle *nozzle)
 {
     const sp_nozzle_type *type = nozzle->type;
-    double widest = 0;
     if (nozzle->angle > 0 || type->pattern != SP_PATTERN_CLUSTER)
         return nozzle->angle > 0 ? nozzle->angle : type->angle;
-    for (size_t i = 0; i < type->member_count; i++)
-        widest = fmax(widest, member_angle(&type->members[i]));
-    return 2 * fmin(widest, M_PI);
+    return 2 * reach_of(type);
 }
 
 size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle)
