@@ -213,7 +213,7 @@ static double reach_price(const sp_aim_pricing *pricing, scratch *own, const sp_
     sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
     sp_region region = sp_region_create(&spray, &frame, strength_of(pricing, cell), 0);
     region.count = count;
-    region.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
+    region.outline.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;

@@ -1,5 +1,6 @@
 /* Clusters: several patterns on one body, such as a spray ball with its holes. */
 #include "pattern.h"
+#include "rotation.h"
 
 static double member_angle(const sp_member *member)
 {
@@ -96,6 +97,11 @@ void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3
 bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error)
 {
     const char *wrong = NULL;
+    if (type->pattern >= sp_form_count)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: expected one of the patterns", type->name);
+    if (sp_type_rotates(type) && !sp_pattern_turns(type->rotation.jet))
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: rotating, expected a cone, fan or stream as jet",
+                       type->name);
     if (type->pattern == SP_PATTERN_MEASURED && !type->patternation)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: measured, expected a patternation", type->name);
     if (type->pattern != SP_PATTERN_CLUSTER)

@@ -1,5 +1,6 @@
 /* What every form of pattern answers about itself. A file like cone.c or fan.c answers for one form, and form.c lists
- * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. */
+ * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. Of the two forms whose
+ * liquid is even outline.c and outline_lanes.h know what sweeps need. */
 #ifndef NOZZLE_FORM_H
 #define NOZZLE_FORM_H
 
@@ -9,7 +10,7 @@
 
 /* Directions are unit, in the nozzle's frame where none is given, else in the world. */
 typedef struct {
-    bool even;     /* one region with as much liquid everywhere: see sp_type_is_uniform */
+    bool even;     /* one region with as much liquid everywhere, and an outline: see sp_type_is_uniform */
     bool gaps;     /* there may be directions without liquid between others */
     bool image;    /* sprays by an image */
     bool stream;   /* leaves in one piece */
@@ -20,7 +21,6 @@ typedef struct {
     void (*settle)(sp_spray *spray);
     double (*intensity)(const sp_spray *spray, sp_vec3 direction);
     double (*margin)(const sp_spray *spray, sp_vec3 direction);
-    /* See sp_spray_margin_slope; NULL: by differences of the margin. */
     double (*margin_slope)(const sp_spray *spray, sp_vec3 direction, sp_vec3 *gradient);
     /* See sp_spray_latitude; NULL: it reaches all. */
     double (*latitude)(const sp_spray *spray);
@@ -34,6 +34,9 @@ typedef struct {
     /* See sp_spray_widened: `spray` is as wide as any; even forms only. */
     void (*widen)(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack);
 } sp_form;
+
+/* A form's margin_slope by differences of its margin. pattern.c. */
+double sp_margin_differences(const sp_spray *spray, sp_vec3 direction, sp_vec3 *gradient);
 
 extern const sp_form sp_full_cone, sp_hollow_cone, sp_solid_stream, sp_cluster_body; /* cone.c */
 extern const sp_form sp_flat_fan;                                                    /* fan.c */

@@ -84,7 +84,7 @@ double sp_spray_margin(const sp_spray *spray, sp_vec3 direction)
 }
 
 /* By differences along two directions across this one. */
-static double differences(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
+double sp_margin_differences(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
 {
     double margin = sp_spray_margin(spray, d);
     if (gradient) {
@@ -94,13 +94,6 @@ static double differences(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
         *gradient = sp_along(sp_scale(a, by_a), by_b, b);
     }
     return margin;
-}
-
-double sp_spray_margin_slope(const sp_spray *spray, sp_vec3 direction, sp_vec3 *gradient)
-{
-    const sp_form *form = sp_form_of(spray->kind);
-    return form->margin_slope ? form->margin_slope(spray, direction, gradient)
-                              : differences(spray, direction, gradient);
 }
 
 sp_spray sp_spray_widened(const sp_spray *narrow, const sp_spray *wide, double turn, double roll, double slack)

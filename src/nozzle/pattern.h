@@ -52,7 +52,10 @@ double sp_spray_latitude(const sp_spray *spray);
 /* Whether a unit direction of the world gets any liquid. */
 bool sp_spray_holds(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction);
 /* sp_spray_margin and, where `gradient` is not NULL, how that changes with the direction. */
-double sp_spray_margin_slope(const sp_spray *spray, sp_vec3 direction, sp_vec3 *gradient);
+static inline double sp_spray_margin_slope(const sp_spray *spray, sp_vec3 direction, sp_vec3 *gradient)
+{
+    return sp_form_of(spray->kind)->margin_slope(spray, direction, gradient);
+}
 /* A spray, of one kind with two others of an even form that are opened to the least and the most angle, that holds all
  * directions of any opened to an angle between whose axis is turned by up to `turn` any way and which is rolled by up
  * to `roll`; by about `slack` more than it must. All in rad. */

@@ -24,10 +24,15 @@ static inline bool sp_type_leaves_as_stream(const sp_nozzle_type *type)
 {
     return sp_form_of(sp_type_rotates(type) ? type->rotation.jet : type->pattern)->stream;
 }
+/* Whether a jet that turns may be of this pattern. */
+static inline bool sp_pattern_turns(sp_pattern jet)
+{
+    return jet < sp_form_count && sp_form_of(jet)->even;
+}
 /* Whether jets on a hub may be of this pattern: those that spray the same however they are rolled. */
 static inline bool sp_pattern_fits_hub(sp_pattern jet)
 {
-    return sp_form_of(jet)->even && sp_form_of(jet)->period == 0;
+    return sp_pattern_turns(jet) && sp_form_of(jet)->period == 0;
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "form.h"
 #include "frame.h"
 #include "ring.h"
+#include "rotation.h"
 
 #define THINNEST 2e-6 /* rad, of a jet: of thinner ones the solid angle is round-off in a cap's */
 
@@ -18,7 +19,7 @@ static void open(const sp_nozzle_type *type, double angle, sp_spray *spray)
     const sp_rotation *rotation = &type->rotation;
     sp_nozzle_type jet = {.thickness = fmax(type->thickness, THINNEST), .hollow = type->hollow};
     double sine = sin(rotation->tilt);
-    assert(sp_form_of(rotation->jet)->even);
+    assert(sp_pattern_turns(rotation->jet));
     spray->jet = rotation->jet;
     spray->two_axes = rotation->jets > 0;
     spray->spindle = sp_v(-sine * cos(rotation->roll), sine * sin(rotation->roll), cos(rotation->tilt));
@@ -153,6 +154,7 @@ const sp_form sp_rotating = {.open = open,
                              .settle = settle,
                              .intensity = intensity,
                              .margin = margin,
+                             .margin_slope = sp_margin_differences,
                              .share = sp_turned_share,
                              .density = sp_turned_mean,
                              .densities = densities,
