@@ -1,6 +1,6 @@
 #include "live/numbers.h"
 
-#include "nozzle/form.h"
+#include "nozzle/rotation.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,7 +71,7 @@ static bool is_pattern(double number)
 }
 static bool is_jet(double number)
 {
-    return whole(number, (double)sp_form_count - 1) && sp_forms[(size_t)number]->even;
+    return whole(number, (double)sp_form_count - 1) && sp_pattern_turns((sp_pattern)number);
 }
 
 bool sp_live_read_type(const double n[SP_LIVE_TYPE_NUMBERS], sp_nozzle_type *type, size_t *first_member)

@@ -114,8 +114,8 @@ static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double r
     .settle = settle, .intensity = intensity, .margin = margin, .margin_slope = margin_slope, .share = share,          \
     .direction = direction, .rim = sp_ring_rim, .widen = widen
 
-const sp_form sp_full_cone = {.even = true, .open = open_full, CONE};
-const sp_form sp_hollow_cone = {.even = true, .open = open_hollow, CONE};
-const sp_form sp_solid_stream = {.even = true, .stream = true, .open = open_full, CONE};
+const sp_form sp_full_cone = {.swept = true, .open = open_full, CONE};
+const sp_form sp_hollow_cone = {.swept = true, .open = open_hollow, CONE};
+const sp_form sp_solid_stream = {.swept = true, .stream = true, .open = open_full, CONE};
 /* Of a cluster, whose members spray, nothing but what holds them. */
 const sp_form sp_cluster_body = {.period = 2 * M_PI, .open = open_full, CONE};

@@ -108,7 +108,7 @@ static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double r
     spray->half_thickness = fmin(M_PI / 2, thickness + by);
 }
 
-const sp_form sp_flat_fan = {.even = true,
+const sp_form sp_flat_fan = {.swept = true,
                              .period = M_PI,
                              .open = open,
                              .settle = settle,

@@ -1,6 +1,6 @@
 /* What every form of pattern answers about itself. A file like cone.c or fan.c answers for one form, and form.c lists
- * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. Of the two forms whose
- * liquid is even outline.c and outline_lanes.h know what sweeps need. */
+ * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. Of those that are swept
+ * outline.c and outline_lanes.h know the outline. */
 #ifndef NOZZLE_FORM_H
 #define NOZZLE_FORM_H
 
@@ -10,7 +10,7 @@
 
 /* Directions are unit, in the nozzle's frame where none is given, else in the world. */
 typedef struct {
-    bool even;     /* one region with as much liquid everywhere, and an outline: see sp_type_is_uniform */
+    bool swept;    /* one region with as much liquid everywhere, of a known outline: see sp_type_is_uniform */
     bool gaps;     /* there may be directions without liquid between others */
     bool image;    /* sprays by an image */
     bool stream;   /* leaves in one piece */
@@ -31,7 +31,7 @@ typedef struct {
     /* Of a point of the unit square, so that equal areas get as much liquid. */
     sp_vec3 (*direction)(const sp_spray *spray, double u, double w);
     sp_vec3 (*rim)(const sp_spray *spray, int i, int count);
-    /* See sp_spray_widened: `spray` is as wide as any; even forms only. */
+    /* See sp_spray_widened: `spray` is as wide as any; swept forms only. */
     void (*widen)(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack);
 } sp_form;
 

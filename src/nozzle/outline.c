@@ -19,7 +19,7 @@ static sp_rim rim_at(double angle, double beyond)
 sp_outline sp_outline_create(const sp_spray *spray, const sp_frame *frame, double slack)
 {
     sp_outline outline = {.flat = !sp_spray_is_round(spray), .height = 2};
-    assert(slack >= 0 && sp_form_of(spray->kind)->even);
+    assert(slack >= 0 && sp_form_of(spray->kind)->swept);
     if (outline.flat) {
         outline.height = spray->half_thickness < M_PI / 2 ? (float)(sin(spray->half_thickness) + slack) : 2;
         outline.rise = (float)(1 / (SP_SPRAY_BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));

@@ -1,4 +1,4 @@
-/* The outline of a posed pattern of an even form, in single precision, from which shares of patches follow without
+/* The outline of a posed pattern that is swept, in single precision, from which shares of patches follow without
  * trigonometric functions (outline_lanes.h). */
 #ifndef NOZZLE_OUTLINE_H
 #define NOZZLE_OUTLINE_H

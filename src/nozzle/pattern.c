@@ -99,7 +99,7 @@ double sp_margin_differences(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient
 sp_spray sp_spray_widened(const sp_spray *narrow, const sp_spray *wide, double turn, double roll, double slack)
 {
     sp_spray spray = *wide;
-    assert(narrow->kind == wide->kind && sp_form_of(wide->kind)->even);
+    assert(narrow->kind == wide->kind && sp_form_of(wide->kind)->swept);
     sp_form_of(wide->kind)->widen(&spray, narrow, turn, roll, slack);
     sp_spray_settle(&spray);
     return spray;

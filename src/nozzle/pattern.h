@@ -4,12 +4,12 @@
 
 #include "form.h"
 
-/* True of a type whose liquid is spread evenly over one region, as sp_spray_is_uniform: what it brings is known from
- * what a view of its mounting point holds, and refinement may set its angle and flow and turn it. What any other brings
- * is traced pose by pose, and it stays at these. */
+/* True of a type whose liquid is spread evenly over one region, as sp_spray_is_uniform, of which sweeps know the
+ * outline (outline.h): what it brings is known from what a view of its mounting point holds, and refinement may set its
+ * angle and flow and turn it. What any other brings is traced pose by pose, and it stays at these. */
 static inline bool sp_type_is_uniform(const sp_nozzle_type *type)
 {
-    return sp_form_of(type->pattern)->even;
+    return sp_form_of(type->pattern)->swept;
 }
 /* By how much (rad) a nozzle is rolled about its axis until it sprays the same again; 0: it sprays the same however it
  * is rolled. */
@@ -38,7 +38,7 @@ static inline bool sp_spray_is_round(const sp_spray *spray)
 /* It sprays as much in all directions, wherever its axis points. */
 static inline bool sp_spray_is_isotropic(const sp_spray *spray)
 {
-    return sp_form_of(spray->kind)->even && sp_spray_is_round(spray) && spray->low <= 0 && spray->high >= M_PI;
+    return sp_form_of(spray->kind)->swept && sp_spray_is_round(spray) && spray->low <= 0 && spray->high >= M_PI;
 }
 /* Whether there may be directions within the region that get no liquid. */
 static inline bool sp_spray_has_gaps(const sp_spray *spray)
@@ -56,7 +56,7 @@ static inline double sp_spray_margin_slope(const sp_spray *spray, sp_vec3 direct
 {
     return sp_form_of(spray->kind)->margin_slope(spray, direction, gradient);
 }
-/* A spray, of one kind with two others of an even form that are opened to the least and the most angle, that holds all
+/* A spray, of one kind with two others that are swept and are opened to the least and the most angle, that holds all
  * directions of any opened to an angle between whose axis is turned by up to `turn` any way and which is rolled by up
  * to `roll`; by about `slack` more than it must. All in rad. */
 sp_spray sp_spray_widened(const sp_spray *narrow, const sp_spray *wide, double turn, double roll, double slack);
