@@ -205,11 +205,12 @@ typedef struct {
     sp_vec3 spindle;                   /* what rotates: the axis turned about, unit, in the jet's frame */
     const sp_patternation *measured;   /* what is measured: borrowed from the type */
     double solid_angle;                /* sr; this and what follows come from the angles, see sp_spray_settle */
-    double low, high; /* what rotates or is measured: the polar angles about z between which it sprays, rad */
+    double low, high;                  /* the polar angles about z between which it sprays, rad */
     double inner_chord2, outer_chord2; /* cones: squared chords from the axis to these angles; 4: no edge */
     double inner_sine, outer_sine;     /* of these angles, from the chords */
     double height, rise;               /* fans: sine and cosine of half_thickness */
     double end_sine, end_cosine;       /* of half_width */
+    bool even;                         /* see sp_spray_is_uniform */
 } sp_spray;
 SP_API sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
 /* Works out what follows from a pattern's kind and angles, after these were changed. */
@@ -218,7 +219,7 @@ SP_API void sp_spray_settle(sp_spray *spray);
  * means. */
 static inline bool sp_spray_is_uniform(const sp_spray *spray)
 {
-    return spray->kind != SP_PATTERN_ROTATING && spray->kind != SP_PATTERN_MEASURED;
+    return spray->even;
 }
 /* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside.
  * Of what rotates the mean over time: about one axis that of its jet along the circle about the axis, in closed form;

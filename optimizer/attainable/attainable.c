@@ -33,9 +33,8 @@ static double best_intensity(const sp_variant *variant, const sp_scope *scope, d
             return 0;
         angle = type->angle;
     }
-    if (type->pattern == SP_PATTERN_HOLLOW_CONE && most < type->hollow * angle / 2)
-        return 0;
-    return 1 / sp_spray_create(type, angle).solid_angle;
+    sp_spray spray = sp_spray_create(type, angle);
+    return most < spray.low ? 0 : 1 / spray.solid_angle;
 }
 
 /* Adds what one arrival offers; true where something got better. */

@@ -15,15 +15,15 @@
 #define POSES_ENOUGH 1.1e6
 #define COARSENESS_MOST 4.0
 #define TRACED_ENOUGH 40000.0 /* patterns, each of which takes about as long as a view */
-#define FAN_ROLLS 8
+#define FLAT_ROLLS 8
 #define BODY_ROLLS 4 /* of what no sweep knows, each of which has to be traced */
 #define ANGLES 3
 
 static size_t rolls_of(const sp_nozzle_type *type)
 {
-    if (type->pattern == SP_PATTERN_FLAT_FAN)
-        return FAN_ROLLS;
-    return sp_type_is_uniform(type) || type->pattern == SP_PATTERN_ROTATING ? 1 : BODY_ROLLS;
+    if (sp_type_roll_period(type) == 0)
+        return 1;
+    return sp_type_is_uniform(type) ? FLAT_ROLLS : BODY_ROLLS;
 }
 
 static bool is_same(const sp_launch *a, const sp_launch *b)
@@ -39,8 +39,7 @@ static bool variant_create(const sp_setup *setup, const sp_nozzle_type *type, do
     sp_launch launch;
     sp_variant variant = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
     variant.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
-    variant.reach =
-        type->pattern == SP_PATTERN_CLUSTER ? 0.5 * sp_nozzle_angle(&nozzle) : sp_spray_reach(&variant.spray);
+    variant.reach = sp_type_reach(type, angle);
     variant.roll_count = rolls_of(type);
     if (!(variant.flow > 0) || !(sp_nozzle_speed(&nozzle, &setup->liquid) > 0))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing", type->name,
@@ -125,9 +124,7 @@ static double axis_step(const sp_variant *variant, const spacing *spacing)
 static double axis_tilt(const sp_variant *variant, const sp_mount *mount)
 {
     /* what sprays all round is the same whatever its axis */
-    bool cone = sp_type_is_uniform(variant->type) && variant->spray.kind != SP_PATTERN_FLAT_FAN,
-         all_round = cone && variant->spray.outer >= M_PI && variant->spray.inner <= 0;
-    return all_round ? 0 : fmin(M_PI, mount->tilt);
+    return sp_spray_is_isotropic(&variant->spray) ? 0 : fmin(M_PI, mount->tilt);
 }
 
 /* Of all, and the patterns of those that are traced. */
@@ -250,9 +247,7 @@ sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
 
 double sp_variant_roll(const sp_variant *variant, size_t i)
 {
-    /* Half a turn brings a fan back to itself. */
-    double turn = variant->type->pattern == SP_PATTERN_FLAT_FAN ? M_PI : 2 * M_PI;
-    return turn * (double)i / (double)variant->roll_count;
+    return sp_type_roll_period(variant->type) * (double)i / (double)variant->roll_count;
 }
 
 sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up)

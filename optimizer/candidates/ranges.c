@@ -17,7 +17,7 @@ void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const
                    double *low, double *high)
 {
     sp_trajectory trajectory = type->trajectory == SP_TRAJECTORY_AUTO ? setup->fidelity.trajectory : type->trajectory;
-    bool breaks_up = trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
+    bool breaks_up = trajectory == SP_TRAJECTORY_DRAG && sp_type_is_stream(type);
     double change = sp_type_is_uniform(type) && !breaks_up ? options->refine.flow : 0;
     double least = fmax(type->flow_min, type->flow * (1 - change));
     double most = fmin(type->flow_max, type->flow * (1 + change));

@@ -2,16 +2,9 @@
 #ifndef OPTIMIZER_RANGES_H
 #define OPTIMIZER_RANGES_H
 
-#include <sprayplan/place.h>
+#include "nozzle/pattern.h"
 
-/* True of a type whose liquid is spread evenly over one region, as sp_spray_is_uniform: it is judged from what a view
- * of its site holds, and refinement may change it. What any other brings is found by footprints, and it stays at the
- * poses of candidates. */
-static inline bool sp_type_is_uniform(const sp_nozzle_type *type)
-{
-    return type->pattern == SP_PATTERN_FULL_CONE || type->pattern == SP_PATTERN_HOLLOW_CONE ||
-           type->pattern == SP_PATTERN_FLAT_FAN || type->pattern == SP_PATTERN_SOLID_STREAM;
-}
+#include <sprayplan/place.h>
 
 /* The pressure at which a type is fed that is offered one: the nearest that can be set. */
 double sp_fed_pressure(const sp_nozzle_type *type, double pressure);

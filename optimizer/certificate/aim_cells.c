@@ -52,13 +52,13 @@ void sp_aim_kinds_free(sp_aim_kinds *kinds)
 
 sp_aim_cell sp_aim_cell_whole(const sp_aim_kind *kind, uint32_t site, uint32_t number, uint32_t step)
 {
-    bool fan = kind->type->pattern == SP_PATTERN_FLAT_FAN;
+    double half = 0.5 * sp_type_roll_period(kind->type);
     return (sp_aim_cell){.site = site,
                          .kind = number,
                          .step = step,
                          .level = -1,
-                         .roll = fan ? M_PI / 2 : 0,
-                         .roll_half = fan ? M_PI / 2 : 0, /* half a turn brings a fan back to itself */
+                         .roll = half,
+                         .roll_half = half,
                          .angle_low = kind->angle_low,
                          .angle_high = kind->angle_high,
                          .upper = INFINITY};
@@ -85,25 +85,11 @@ sp_aim_disc sp_aim_cell_disc(const sp_aim_cell *cell, const sp_site *site, doubl
 }
 
 /* Turning by `radius` moves no direction farther than that, so that a pattern's directions stay within it as widened by
- * the radius. A roll moves a direction by as much times the sine of its polar angle. On a sphere a circle of radius r
- * about latitude φ spans the longitudes ±asin(sin r / cos φ). */
+ * the radius. */
 sp_spray sp_aim_cell_spray(const sp_aim_cell *cell, const sp_aim_kind *kind, double radius)
 {
     sp_spray low = sp_spray_create(kind->type, cell->angle_low), wide = sp_spray_create(kind->type, cell->angle_high);
-    double by = radius + MARGIN;
-    if (wide.kind != SP_PATTERN_FLAT_FAN) {
-        wide.outer = fmin(M_PI, wide.outer + by);
-        wide.inner = fmax(0, low.inner - by);
-        sp_spray_settle(&wide);
-        return wide;
-    }
-    by += cell->roll_half * sin(fmin(sp_spray_reach(&wide), M_PI / 2));
-    double thickness = wide.half_thickness;
-    bool about_pole = by + thickness >= M_PI / 2 - MARGIN;
-    wide.half_width = about_pole ? M_PI : fmin(M_PI, wide.half_width + asin(sin(by) / cos(thickness)) + MARGIN);
-    wide.half_thickness = fmin(M_PI / 2, thickness + by);
-    sp_spray_settle(&wide);
-    return wide;
+    return sp_spray_widened(&low, &wide, radius, cell->roll_half, MARGIN);
 }
 
 sp_frame sp_aim_cell_frame(const sp_aim_cell *cell, const sp_aim_disc *disc, sp_vec3 up)
@@ -142,12 +128,6 @@ sp_aim_cell sp_aim_cell_middle(const sp_aim_cell *cell, const sp_aim_kind *kind)
     middle.roll_half = 0;
     middle.angle_low = middle.angle_high = thickest(cell, kind, &solid_angle);
     return middle;
-}
-
-static bool is_all_round(const sp_aim_cell *cell, const sp_aim_kind *kind)
-{
-    sp_spray spray = sp_spray_create(kind->type, cell->angle_low);
-    return spray.kind != SP_PATTERN_FLAT_FAN && spray.outer >= M_PI && spray.inner <= 0;
 }
 
 /* Whether some axis of the cell is within the tilt. */
@@ -198,8 +178,9 @@ typedef struct {
 
 static extent extent_of(const sp_aim_cell *cell, const sp_aim_kind *kind, const sp_site *site, double tilt)
 {
-    sp_spray spray = sp_spray_create(kind->type, cell->angle_high);
-    extent extent = {.axes = is_all_round(cell, kind) ? 0 : sp_aim_cell_disc(cell, site, tilt).radius,
+    sp_spray narrow = sp_spray_create(kind->type, cell->angle_low),
+             spray = sp_spray_create(kind->type, cell->angle_high);
+    extent extent = {.axes = sp_spray_is_isotropic(&narrow) ? 0 : sp_aim_cell_disc(cell, site, tilt).radius,
                      .rolls = cell->roll_half * sin(fmin(sp_spray_reach(&spray), M_PI / 2)),
                      .angles = 0.5 * (cell->angle_high - cell->angle_low)};
     extent.most = fmax(extent.axes, fmax(extent.rolls, extent.angles));

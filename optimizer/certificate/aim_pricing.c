@@ -2,6 +2,7 @@
 
 #include "certificate/pose_price.h"
 #include "certificate/pose_rows.h"
+#include "nozzle/strength.h"
 #include "ranks/gather.h"
 #include "scoring/scoring.h"
 
@@ -175,12 +176,12 @@ static double *known_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 static double strength_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
     double plenty = pricing->search->plenty;
-    return plenty > 0 ? sp_aim_cell_intensity(cell, &pricing->kinds->items[cell->kind]) / plenty : INFINITY;
+    return sp_strength(sp_aim_cell_intensity(cell, &pricing->kinds->items[cell->kind]), 1, plenty);
 }
 static double least_strength_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
     double plenty = pricing->search->plenty;
-    return plenty > 0 ? sp_aim_cell_intensity_least(cell, &pricing->kinds->items[cell->kind]) / plenty : INFINITY;
+    return sp_strength(sp_aim_cell_intensity_least(cell, &pricing->kinds->items[cell->kind]), 1, plenty);
 }
 
 /* Whether two cells need the same worths of arrivals. */
@@ -190,16 +191,10 @@ static bool alike(const sp_aim_cell *a, const sp_aim_cell *b)
            a->angle_high == b->angle_high;
 }
 
-static bool same(const sp_spray *a, const sp_spray *b)
-{
-    return a->kind == b->kind && a->inner == b->inner && a->outer == b->outer && a->half_width == b->half_width &&
-           a->half_thickness == b->half_thickness;
-}
-
 static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray, sp_count count)
 {
     for (size_t i = 0; i < CULLS; i++)
-        if (own->culls[i].used && own->culls[i].count == count && same(&own->culls[i].spray, spray))
+        if (own->culls[i].used && own->culls[i].count == count && sp_spray_is_same(&own->culls[i].spray, spray))
             return &own->culls[i].cull;
     kept_cull *kept = &own->culls[own->next_cull++ % CULLS];
     kept->used = true;
@@ -218,7 +213,7 @@ static double reach_price(const sp_aim_pricing *pricing, scratch *own, const sp_
     sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
     sp_region region = sp_region_create(&spray, &frame, strength_of(pricing, cell), 0);
     region.count = count;
-    region.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
+    region.outline.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;

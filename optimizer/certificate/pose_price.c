@@ -74,7 +74,7 @@ double sp_pose_price(const sp_pose_pricing *pricing, const sp_pose_scratch *own,
     double price;
     if (!sp_type_is_uniform(nozzle.type))
         return row_price(own, sp_pose_write(pricing, pose, own->texels, own->shares));
-    sp_region_turn(region, &frame);
+    sp_outline_turn(&region->outline, &frame);
     if (pricing->film_need)
         return field_price_of(pricing, own, &search->candidates->variants[pose.variant], region);
     search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS, &price);

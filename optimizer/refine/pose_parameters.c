@@ -86,12 +86,12 @@ static double carried_roll(const sp_pose_parameters *parameters, sp_vec3 axis)
     return sp_carried_roll(&parameters->origin, axis, parameters->up);
 }
 
-/* The roll with which a nozzle turned to this axis is listed, `roll` past the one carried along. A cone is the same at
- * every roll: its own stays, so that no layout asks for turns that mean nothing. */
+/* The roll with which a nozzle turned to this axis is listed, `roll` past the one carried along. What is the
+ * same at every roll keeps its own, so that no layout asks for turns that mean nothing. */
 static double listed_roll(const sp_pose_parameters *parameters, sp_vec3 axis, double roll)
 {
-    bool fan = parameters->start.type->pattern == SP_PATTERN_FLAT_FAN;
-    return fan ? carried_roll(parameters, axis) + roll : parameters->start.roll;
+    bool rolls = sp_type_roll_period(parameters->start.type) > 0;
+    return rolls ? carried_roll(parameters, axis) + roll : parameters->start.roll;
 }
 
 static void add_axis(sp_pose_parameters *parameters, double limit)
@@ -126,10 +126,10 @@ sp_pose_parameters sp_pose_parameters_create(const sp_search *search, const sp_p
     add_place(&parameters, options, mount);
     add_axis(&parameters, parameters.axis_limit);
     sp_vec3 none = {0, 0, 0};
-    if (options->refine.roll && type->pattern == SP_PATTERN_FLAT_FAN) {
-        /* a fan is the same after half a turn */
-        double roll = remainder(placed->nozzle.roll - carried_roll(&parameters, placed->nozzle.axis), M_PI);
-        add(&parameters, SP_UNKNOWN_ROLL, none, roll, -M_PI / 2, M_PI / 2);
+    double period = sp_type_roll_period(type);
+    if (options->refine.roll && period > 0) {
+        double roll = remainder(placed->nozzle.roll - carried_roll(&parameters, placed->nozzle.axis), period);
+        add(&parameters, SP_UNKNOWN_ROLL, none, roll, -0.5 * period, 0.5 * period);
     }
     double low, high;
     sp_angle_range(options, type, &low, &high);

@@ -65,7 +65,7 @@ static bool set_tilt(const sp_search *search, sp_placed *placed, double tilt)
         return false;
     if (tilt > 0)
         axis = sp_unit(sp_add(sp_scale(mid, cos(tilt)), sp_scale(sp_unit(aside), sin(tilt))));
-    if (placed->nozzle.type->pattern == SP_PATTERN_FLAT_FAN)
+    if (sp_type_roll_period(placed->nozzle.type) > 0)
         placed->nozzle.roll = sp_carried_roll(&placed->nozzle, axis, up);
     placed->nozzle.axis = axis;
     return true;

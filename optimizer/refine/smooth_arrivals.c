@@ -1,5 +1,8 @@
 #include "refine/smooth_arrivals.h"
 
+#include "nozzle/frame.h"
+#include "nozzle/strength.h"
+
 #include <assert.h>
 
 #define FAR 8.0 /* widths beyond the edge where nothing is left of a pattern */
@@ -63,7 +66,7 @@ static sp_posed pose(const sp_search *search, const sp_pose_parameters *paramete
     posed.spray = sp_spray_create(posed.nozzle.type, sp_nozzle_angle(&posed.nozzle));
     posed.frame = sp_nozzle_frame(posed.nozzle.axis, posed.nozzle.roll, setup->up);
     double flow = sp_nozzle_flow(&posed.nozzle, &setup->liquid);
-    posed.strength = search->threshold > 0 ? flow / (posed.spray.solid_angle * search->threshold) : 1;
+    posed.strength = sp_strength(flow, posed.spray.solid_angle, search->threshold);
     double most = sp_spray_reach(&posed.spray) + FAR * (width.edge + OWN_EDGE * BROAD);
     posed.least = most < M_PI ? cos(most) : -2;
     posed.moved = sp_distance(posed.nozzle.position, sight->position) > 0;
@@ -83,35 +86,6 @@ typedef struct {
     double inside;    /* smoothed, 0 to 1 */
 } sp_borne;
 
-static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
-{
-    return sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
-}
-
-/* How far inside the pattern a direction of the nozzle's frame lies, and where `gradient` is not NULL how that changes
- * with the direction. */
-static double margin_of(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
-{
-    if (spray->kind == SP_PATTERN_FLAT_FAN) {
-        double margin = sp_spray_margin(spray, d);
-        if (gradient) {
-            sp_vec3 a = sp_unit(sp_cross(d, fabs(d.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))), b = sp_cross(d, a);
-            double by_a = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, a))) - margin) / STEP;
-            double by_b = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, b))) - margin) / STEP;
-            *gradient = sp_along(sp_scale(a, by_a), by_b, b);
-        }
-        return margin;
-    }
-    /* the polar angle's gradient on the sphere is -1/sin along z */
-    double sine = sqrt(d.x * d.x + d.y * d.y), polar = atan2(sine, d.z);
-    double outwards = spray->outer < M_PI ? spray->outer - polar : M_PI;
-    double inwards = spray->inner > 0 ? polar - spray->inner : M_PI;
-    bool out = outwards < inwards;
-    if (gradient)
-        *gradient = sp_v(0, 0, sine < 1e-9 || (out ? outwards : inwards) >= M_PI ? 0 : (out ? 1 : -1) / sine);
-    return out ? outwards : inwards;
-}
-
 /* False where nothing is left of the pattern. */
 static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool slopes, sp_borne *borne)
 {
@@ -123,10 +97,10 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     if (flies &&
         !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &borne->flight, &borne->transfer))
         return false;
-    borne->local = in_frame(&posed->frame, borne->flight.direction);
+    borne->local = sp_frame_local(&posed->frame, borne->flight.direction);
     if (borne->local.z < posed->least)
         return false;
-    borne->margin = margin_of(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
+    borne->margin = sp_spray_margin_slope(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
     double own = OWN_EDGE * seen->breadth;
     borne->edge = sqrt(posed->width.edge * posed->width.edge + own * own);
     assert(borne->edge > 0);
@@ -175,16 +149,17 @@ static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, cons
     switch (parameters->kind[k]) {
     case SP_UNKNOWN_PLACE:
         slope.flux = shift(posed, borne, seen, parameters->move[k], &turn);
-        slope.share = edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
+        slope.share = edge * sp_dot(borne->gradient, sp_frame_local(&posed->frame, turn));
         break;
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
         if (edge > 0)
-            slope.share = edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction));
+            slope.share = edge * sp_dot(borne->gradient, sp_frame_local(&posed->turn[k], borne->flight.direction));
         break;
     case SP_UNKNOWN_ANGLE:
         if (edge > 0)
-            slope.share = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
+            slope.share =
+                edge * (sp_spray_margin_slope(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
         slope.flux = posed->thicken[k];
         break;
     case SP_UNKNOWN_FLOW:

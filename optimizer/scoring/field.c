@@ -1,5 +1,6 @@
 #include "scoring/field.h"
 
+#include "nozzle/strength.h"
 #include "scoring/footprints.h"
 
 #include <assert.h>
@@ -11,11 +12,9 @@ sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzl
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
     sp_posed_spray posed = {.spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle)),
                             .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
-                            .strength = INFINITY,
                             .type = nozzle->type,
                             .flow = sp_nozzle_flow(nozzle, &setup->liquid)};
-    if (search->threshold > 0)
-        posed.strength = posed.flow / (posed.spray.solid_angle * search->threshold);
+    posed.strength = sp_strength(posed.flow, posed.spray.solid_angle, search->threshold);
     return posed;
 }
 
@@ -28,8 +27,7 @@ static float value_of(const sp_posed_spray *posed, sp_vec3 d, double breadth, do
         float share = (float)sp_spray_share(&posed->spray, frame, d, breadth);
         return share < 1 ? -share : (float)flux;
     }
-    sp_vec3 local = sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
-    return sp_spray_intensity(&posed->spray, local) > 0 ? (float)flux : 0;
+    return sp_spray_holds(&posed->spray, frame, d) ? (float)flux : 0;
 }
 
 sp_field_making sp_field_begin(const sp_search *search, const sp_posed_spray *posed, double scale, float *field)
@@ -39,7 +37,7 @@ sp_field_making sp_field_begin(const sp_search *search, const sp_posed_spray *po
     if (search->runoffs) {
         making.runoff = sp_search_runoff(search);
         making.arriving = sp_runoff_arriving(making.runoff);
-        making.intensity = posed->flow / (posed->spray.solid_angle * scale);
+        making.intensity = sp_strength(posed->flow, posed->spray.solid_angle, scale);
     }
     return making;
 }
@@ -126,7 +124,7 @@ void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, co
 
 double sp_variant_strength(const sp_search *search, const sp_variant *variant)
 {
-    return search->plenty > 0 ? variant->flow / (variant->spray.solid_angle * search->plenty) : INFINITY;
+    return sp_strength(variant->flow, variant->spray.solid_angle, search->plenty);
 }
 
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)

@@ -58,12 +58,6 @@ static double flux_of(const posed *pattern, const sp_arrival *arrival, double sh
     return pattern->flow * density * arrival->transfer;
 }
 
-static bool holds(const posed *pattern, sp_vec3 d)
-{
-    const sp_frame *frame = &pattern->frame;
-    return sp_spray_intensity(&pattern->spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z))) > 0;
-}
-
 /* All arrivals of a pattern at one patch, as the inverse evaluator counts them. */
 static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_arrival *end, sum *s)
 {
@@ -80,7 +74,8 @@ static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_ar
             s->arriving[first->patch] += brings;
         if (arrival->passes)
             sp_wetting_add(&wetting, flux, threshold, arrival->part, share,
-                           !sp_wetting_alone(flux, threshold) && holds(pattern, arrival->direction));
+                           !sp_wetting_alone(flux, threshold) &&
+                               sp_spray_holds(&pattern->spray, &pattern->frame, arrival->direction));
     }
     sp_wetting settled = sp_wetting_settle(wetting, threshold);
     s->even[first->patch] += settled.even;

@@ -123,8 +123,8 @@ sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t r
     sp_vec3 lean = sp_candidates_axes(search->candidates, mount, sweeper->variant)->axes[axis];
     sp_vec3 z = sp_frame_axis(&sweeper->frame, lean), up = sp_evaluator_setup(search->coarse)->up;
     sp_region region = sweeper->region;
-    sp_frame frame = region.fan ? sp_nozzle_frame(z, sp_variant_roll(variant, roll), up) : (sp_frame){z, z, z};
-    sp_region_turn(&region, &frame);
+    sp_frame frame = region.outline.flat ? sp_nozzle_frame(z, sp_variant_roll(variant, roll), up) : (sp_frame){z, z, z};
+    sp_outline_turn(&region.outline, &frame);
     return region;
 }
 

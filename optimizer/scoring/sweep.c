@@ -21,51 +21,12 @@ const sp_sweep_set *sp_sweep_best(void)
     return sp_sweep_sets[i];
 }
 
-static void narrow(sp_vec3 v, float out[3])
-{
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-}
-
-static sp_rim rim_at(double angle, double beyond)
-{
-    double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = angle >= M_PI ? 4 : chord * chord;
-    double sine2 = fmax(edge2 * (1 - edge2 / 4), 1e-30);
-    return (sp_rim){(float)edge2, (float)(1 / (2 * SP_SPRAY_BLUR * sqrt(sine2)))};
-}
-
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
 {
-    assert(strength >= 0 && slack >= 0 && spray->inner >= 0); /* strength 0: nothing covers alone, of goods that move */
-    sp_region region = {.fan = spray->kind == SP_PATTERN_FLAT_FAN,
-                        .height = 2,
-                        .alone_from = (float)((1 - slack) / strength),
-                        .alone = (float)((1 + slack) / strength)};
-    if (region.fan) {
-        region.height = spray->half_thickness < M_PI / 2 ? (float)(sin(spray->half_thickness) + slack) : 2;
-        region.rise = (float)(1 / (SP_SPRAY_BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
-        region.wide = cos(spray->half_width) < 0;
-        region.all_round = spray->half_width >= M_PI;
-        region.end_cosine = (float)cos(spray->half_width + slack);
-        region.end_sine = (float)sin(spray->half_width + slack);
-    } else {
-        region.outer = rim_at(spray->outer, slack);
-        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0};
-    }
-    sp_region_turn(&region, frame);
-    return region;
-}
-
-void sp_region_turn(sp_region *region, const sp_frame *frame)
-{
-    narrow(frame->z, region->z);
-    if (!region->fan)
-        return;
-    narrow(frame->y, region->y);
-    sp_vec3 along = sp_scale(frame->z, (double)region->end_sine);
-    narrow(sp_along(along, -(double)region->end_cosine, frame->x), region->end[0]);
-    narrow(sp_along(along, (double)region->end_cosine, frame->x), region->end[1]);
+    assert(strength >= 0 && slack >= 0); /* strength 0: nothing covers alone, of goods that move */
+    return (sp_region){.outline = sp_outline_create(spray, frame, slack),
+                       .alone_from = (float)((1 - slack) / strength),
+                       .alone = (float)((1 + slack) / strength)};
 }
 
 static float cosine_within(double angle)
@@ -73,18 +34,27 @@ static float cosine_within(double angle)
     return angle >= M_PI ? -2 : angle < 0 ? 2 : (float)cos(angle);
 }
 
-/* The same for one bin, where patches look broad against the pattern, or the region is generous. */
-static void cull_broad(double around, double broadest, const sp_spray *spray, sp_count count, size_t b, sp_cull *cull)
+/* What cuts bins off. Angles in rad. */
+typedef struct {
+    bool flat;                    /* it does not hold all between its hole and its reach */
+    double reach, hole, latitude; /* the last two: within which, and beyond which on either side, nothing is sprayed */
+} limits;
+
+static limits limits_of(const sp_spray *spray)
 {
-    double reach = sp_spray_reach(spray), far = SP_VIEW_FRINGE * broadest,
-           near = count == SP_COUNT_GENEROUS ? far : SP_VIEW_BLUR * broadest;
-    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
-    cull->outside[b] = cosine_within(fmax(reach + near, fan ? 0 : far) + around);
-    cull->inside[b] = reach >= M_PI && !fan ? -2 : 2;
+    return (limits){!sp_spray_is_round(spray), sp_spray_reach(spray), spray->low, sp_spray_latitude(spray)};
+}
+
+/* The same for one bin, where patches look broad against the pattern, or the region is generous. */
+static void cull_broad(double around, double broadest, const limits *own, sp_count count, size_t b, sp_cull *cull)
+{
+    double far = SP_OUTLINE_FRINGE * broadest, near = count == SP_COUNT_GENEROUS ? far : SP_OUTLINE_BLUR * broadest;
+    cull->outside[b] = cosine_within(fmax(own->reach + near, own->flat ? 0 : far) + around);
+    cull->inside[b] = own->reach >= M_PI && !own->flat ? -2 : 2;
     cull->inner_outside[b] = 2;
-    cull->inner_inside[b] = !fan && spray->inner > 0 ? cosine_within(fmax(spray->inner + near, far) + around) : 2;
-    double latitude = spray->half_thickness + near + around;
-    cull->latitude[b] = fan && latitude < M_PI / 2 ? (float)sin(latitude) : 2;
+    cull->inner_inside[b] = own->hole > 0 ? cosine_within(fmax(own->hole + near, far) + around) : 2;
+    double latitude = own->latitude + near + around;
+    cull->latitude[b] = latitude < M_PI / 2 ? (float)sin(latitude) : 2;
 }
 
 /* A polar angle's cosine and sine, once for all bins. */
@@ -121,8 +91,8 @@ static void set_all(float value, size_t count, float *cosines)
         cosines[i] = value;
 }
 
-/* Where a pattern of this reach ends; for fans nothing is wholly inside. */
-static void cull_reach(const sp_view *view, double reach, bool fan, sp_cull *cull)
+/* Where a pattern of this reach ends; of flat ones nothing is wholly inside. */
+static void cull_reach(const sp_view *view, double reach, bool flat, sp_cull *cull)
 {
     sp_turned outer = turned(fmin(reach, M_PI));
     if (reach >= M_PI) {
@@ -132,8 +102,8 @@ static void cull_reach(const sp_view *view, double reach, bool fan, sp_cull *cul
         set_more(outer, view->cosine, view->sine, SP_BINS, cull->outside);
         set_more(outer, view->block_cosine, view->block_sine, SP_BLOCKS, cull->near);
     }
-    if (fan || reach >= M_PI)
-        set_all(fan ? 2 : -2, SP_BINS, cull->inside);
+    if (flat || reach >= M_PI)
+        set_all(flat ? 2 : -2, SP_BINS, cull->inside);
     else
         set_less(outer, view->cosine, view->sine, cull->inside);
 }
@@ -151,7 +121,7 @@ static void cull_hole(const sp_view *view, double hole, sp_cull *cull)
     }
 }
 
-/* Sines of the latitudes up to which a fan of this half-thickness reaches. */
+/* Sines of the latitudes up to which a pattern of this half-thickness reaches. */
 static void set_latitude(sp_turned side, const float *restrict cosine, const float *restrict sine, size_t count,
                          float *restrict latitude)
 {
@@ -161,11 +131,10 @@ static void set_latitude(sp_turned side, const float *restrict cosine, const flo
     }
 }
 
-/* A cone reaches all latitudes. */
-static void cull_sides(const sp_view *view, bool fan, double half_thickness, sp_cull *cull)
+static void cull_sides(const sp_view *view, bool flat, double half_thickness, sp_cull *cull)
 {
     sp_turned side = turned(half_thickness);
-    if (fan) {
+    if (flat) {
         set_latitude(side, view->cosine, view->sine, SP_BINS, cull->latitude);
         set_latitude(side, view->block_cosine, view->block_sine, SP_BLOCKS, cull->near_latitude);
     } else {
@@ -178,24 +147,23 @@ static void cull_sides(const sp_view *view, bool fan, double half_thickness, sp_
 static float broad_against(double reach, double hole)
 {
     double chord = fmin(2 * sin(0.5 * reach), reach >= M_PI ? 2 : 2 * cos(0.5 * reach));
-    float broad = (float)(chord / SP_VIEW_SPOT);
-    return hole > 0 ? fminf(broad, (float)(2 * sin(0.5 * hole) / SP_VIEW_SPOT)) : broad;
+    float broad = (float)(chord / SP_OUTLINE_SPOT);
+    return hole > 0 ? fminf(broad, (float)(2 * sin(0.5 * hole) / SP_OUTLINE_SPOT)) : broad;
 }
 
 /* The radii are a little too large (see sp_bins_create), so that round-off cannot put a bin on the wrong side. */
 void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull)
 {
-    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
-    double reach = sp_spray_reach(spray), hole = fan ? 0 : spray->inner;
-    /* beyond a corner of a fan more is blurred than beyond its edges */
-    double corner = fan ? (SP_VIEW_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
-    float broad = fan ? INFINITY : broad_against(reach, hole);
-    cull_reach(view, reach + corner, fan, cull);
-    cull_hole(view, hole, cull);
-    cull_sides(view, fan, spray->half_thickness, cull);
+    limits own = limits_of(spray);
+    /* beyond a corner more is blurred than beyond its edges */
+    double corner = own.flat ? (SP_OUTLINE_CORNER - SP_OUTLINE_BLUR) * (double)view->most : 0;
+    float broad = own.flat ? INFINITY : broad_against(own.reach, own.hole);
+    cull_reach(view, own.reach + corner, own.flat, cull);
+    cull_hole(view, own.hole, cull);
+    cull_sides(view, own.flat, own.latitude, cull);
     for (size_t b = 0; b < SP_BINS; b++)
         if (count == SP_COUNT_GENEROUS || view->broadest[b] >= broad) {
-            cull_broad((double)bins->radius[b], (double)view->broadest[b], spray, count, b, cull);
+            cull_broad((double)bins->radius[b], (double)view->broadest[b], &own, count, b, cull);
             cull->near[b / SP_LANES] = -2;
             cull->near_latitude[b / SP_LANES] = 2;
         }

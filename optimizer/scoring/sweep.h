@@ -13,27 +13,12 @@ typedef enum {
     SP_COUNT_GENEROUS, /* whole, if it may have any share */
 } sp_count;
 
-/* A polar angle about the axis at which a cone or its hole ends, as squared chords. */
+/* A posed pattern, and what an arrival has to bring to cover alone. */
 typedef struct {
-    float edge2; /* from the axis to the edge; 4: none */
-    float steep; /* by how much the share's argument grows per squared chord, for a patch 1 rad broad */
-} sp_rim;
-
-/* A posed pattern: what share of a patch lies inside (see sp_spray_share), without trigonometric functions. */
-typedef struct {
-    bool fan;
-    float z[3];                 /* cones: the axis in world coordinates */
-    sp_rim outer, inner;        /* cones; inner.edge2 0: no hole */
-    float y[3];                 /* fans: across the fan's plane */
-    float height;               /* fans: sine of the half-thickness; 2: it has no such edge */
-    float rise;                 /* fans: as sp_rim's, per height */
-    float end[2][3];            /* fans: normals of the planes through its ends, inwards */
-    bool wide, all_round;       /* fans of more than half a turn; of a whole one */
-    float end_cosine, end_sine; /* fans: of the half-width */
-    float alone_from;           /* a view's transfer from which an arrival may meet the criterion alone */
-    float alone;                /* from which it surely does */
+    sp_outline outline;
+    float alone_from; /* a view's transfer from which an arrival may meet the criterion alone */
+    float alone;      /* from which it surely does */
     sp_count count;
-    float narrowest; /* SP_COUNT_GENEROUS: chord to the edge of the narrowest cone that is meant */
 } sp_region;
 
 /* For every bin the cosines, between its centre and the pattern's axis, from which what it has lies wholly outside or
@@ -108,8 +93,6 @@ const sp_sweep_set *sp_sweep_best(void);
 /* `strength`: flux over threshold per transfer of a view. `slack`: how far beyond (rad, and as a share of the
  * transfer) an edge may lie, for sums that must not be too small. */
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack);
-/* Brings the region into another frame. */
-void sp_region_turn(sp_region *region, const sp_frame *frame);
 /* For the arrivals of one view. */
 void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull);
 

@@ -206,7 +206,7 @@ static void set_angles(const sp_bins *bins, sp_view *view)
 {
     double most[SP_BLOCKS] = {0};
     for (size_t b = 0; b < SP_BINS; b++) {
-        double angle = (double)bins->radius[b] + SP_VIEW_BLUR * (double)view->broadest[b];
+        double angle = (double)bins->radius[b] + SP_OUTLINE_BLUR * (double)view->broadest[b];
         view->cosine[b] = (float)cos(angle);
         view->sine[b] = (float)sin(angle);
         most[b / SP_LANES] = fmax(most[b / SP_LANES], angle);

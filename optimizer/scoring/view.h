@@ -3,18 +3,11 @@
 #define OPTIMIZER_VIEW_H
 
 #include "candidates/candidates.h"
+#include "nozzle/outline.h"
 
 #define SP_SIGHTING_PART 512 /* patches traced at a time */
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
-/* Of a patch's breadth, each a little more than in sp_spray_share, for round-off: so far beyond a pattern's edge it may
- * have a share; so far beyond a fan's corner; so far from the axis of a cone too narrow to be told from a spot; and the
- * chord to the edge of the widest of these. */
-#define SP_VIEW_BLUR (0.505 * SP_SPRAY_BLUR)
-#define SP_VIEW_CORNER (0.72 * SP_SPRAY_BLUR)
-#define SP_VIEW_FRINGE (1.423 * SP_SPRAY_BLUR)
-#define SP_VIEW_SPOT (1.004 * SP_SPRAY_BLUR)
-#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 #define SP_BLOCKS (SP_BINS / SP_LANES) /* of as many bins */
 
 /* Arrivals that pass the criterion's speed and incidence, or where film is asked for all, sorted by the octahedral bin
@@ -24,9 +17,9 @@ typedef struct {
     float most;                       /* rad, the greatest breadth of a patch */
     uint32_t *start;                  /* [SP_BINS + 1]; NULL: nothing is known to be reached */
     float *broadest;                  /* [SP_BINS], rad, the greatest breadth of a bin's patches */
-    float *cosine, *sine;             /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
+    float *cosine, *sine;             /* [SP_BINS], of the bin's radius and SP_OUTLINE_BLUR of that together */
     float *block_cosine, *block_sine; /* [SP_BLOCKS], of the block's radius and the greatest of these angles together */
-    float *x, *y, *z;                 /* [count + SP_LANES], unit direction at the nozzle */
+    float *x, *y, *z;                 /* [count + SP_LANES], unit direction at the nozzle; all 0 behind the last */
     float *transfer;                  /* [count + SP_LANES], per area of all patches */
     float *sharp;                     /* [count + SP_LANES], 1/rad: over the patch's breadth */
     uint32_t *patch;                  /* [count] */

@@ -1,5 +1,7 @@
 #include "live/numbers.h"
 
+#include "nozzle/rotation.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -62,11 +64,20 @@ static bool whole(double number, double most)
     return number >= 0 && number <= most && number == floor(number);
 }
 
+/* Of a pattern that numbers tell; of a jet one that may turn. */
+static bool is_pattern(double number)
+{
+    return whole(number, (double)sp_form_count - 1) && !sp_forms[(size_t)number]->image;
+}
+static bool is_jet(double number)
+{
+    return whole(number, (double)sp_form_count - 1) && sp_pattern_turns((sp_pattern)number);
+}
+
 bool sp_live_read_type(const double n[SP_LIVE_TYPE_NUMBERS], sp_nozzle_type *type, size_t *first_member)
 {
-    if (!whole(n[0], SP_PATTERN_ROTATING) || !whole(n[13], SP_PATTERN_SOLID_STREAM) || !whole(n[16], 1e6) ||
-        !whole(n[17], 1e6) || !whole(n[18], 1e6) || !whole(n[19], 1e9) || !whole(n[20], SP_MEMBERS) ||
-        !whole(n[21], SP_TRAJECTORY_PARABOLA))
+    if (!is_pattern(n[0]) || !is_jet(n[13]) || !whole(n[16], 1e6) || !whole(n[17], 1e6) || !whole(n[18], 1e6) ||
+        !whole(n[19], 1e9) || !whole(n[20], SP_MEMBERS) || !whole(n[21], SP_TRAJECTORY_PARABOLA))
         return false;
     *type = (sp_nozzle_type){.pattern = (sp_pattern)n[0],
                              .angle = n[1],

@@ -1,5 +1,6 @@
 /* Clusters: several patterns on one body, such as a spray ball with its holes. */
-#include <sprayplan/nozzle.h>
+#include "pattern.h"
+#include "rotation.h"
 
 static double member_angle(const sp_member *member)
 {
@@ -7,15 +8,26 @@ static double member_angle(const sp_member *member)
     return atan2(hypot(member->axis.x, member->axis.y), member->axis.z) + sp_spray_reach(&spray);
 }
 
+static double reach_of(const sp_nozzle_type *cluster)
+{
+    double widest = 0;
+    for (size_t i = 0; i < cluster->member_count; i++)
+        widest = fmax(widest, member_angle(&cluster->members[i]));
+    return fmin(widest, M_PI);
+}
+
+double sp_type_reach(const sp_nozzle_type *type, double angle)
+{
+    sp_spray spray = sp_spray_create(type, angle);
+    return type->pattern == SP_PATTERN_CLUSTER ? reach_of(type) : sp_spray_reach(&spray);
+}
+
 double sp_nozzle_angle(const sp_nozzle *nozzle)
 {
     const sp_nozzle_type *type = nozzle->type;
-    double widest = 0;
     if (nozzle->angle > 0 || type->pattern != SP_PATTERN_CLUSTER)
         return nozzle->angle > 0 ? nozzle->angle : type->angle;
-    for (size_t i = 0; i < type->member_count; i++)
-        widest = fmax(widest, member_angle(&type->members[i]));
-    return 2 * fmin(widest, M_PI);
+    return 2 * reach_of(type);
 }
 
 size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle)
@@ -85,6 +97,11 @@ void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3
 bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error)
 {
     const char *wrong = NULL;
+    if (type->pattern >= sp_form_count)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: expected one of the patterns", type->name);
+    if (sp_type_rotates(type) && !sp_pattern_turns(type->rotation.jet))
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: rotating, expected a cone, fan or stream as jet",
+                       type->name);
     if (type->pattern == SP_PATTERN_MEASURED && !type->patternation)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: measured, expected a patternation", type->name);
     if (type->pattern != SP_PATTERN_CLUSTER)

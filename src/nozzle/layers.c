@@ -1,4 +1,6 @@
 /* Images with speeds: their liquid in layers of one speed each, which are patterns on top of one another. */
+#include "layers.h"
+
 #include "patternation.h"
 
 #include <assert.h>
@@ -106,4 +108,29 @@ size_t sp_patternation_layers(const float *values, const float *speeds, size_t c
     size_t kept = lay_all(&image, room, layers, error);
     free(room);
     return kept;
+}
+
+bool sp_type_needs_images(const sp_nozzle_type *type)
+{
+    bool needs = sp_type_is_measured(type);
+    for (size_t i = 0; i < type->member_count; i++)
+        needs |= sp_type_is_measured(&type->members[i].type);
+    return needs;
+}
+
+/* In one place. */
+bool sp_type_take_layers(sp_nozzle_type *type, const sp_speed_layer *layers, size_t count, sp_error *error)
+{
+    sp_member *members = calloc(count, sizeof *members);
+    if (!members)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        members[i] = (sp_member){.type = *type, .axis = {0, 0, 1}, .share = layers[i].share, .speed = layers[i].speed};
+        members[i].type.patternation = layers[i].patternation;
+    }
+    type->pattern = SP_PATTERN_CLUSTER;
+    type->angle = type->angle_min = type->angle_max = 0;
+    type->members = members;
+    type->member_count = count;
+    return true;
 }

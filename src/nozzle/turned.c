@@ -4,17 +4,26 @@
 #include "turned.h"
 
 #include "caps.h"
+#include "form.h"
+#include "frame.h"
+#include "ring.h"
+#include "rotation.h"
 
-#include <assert.h>
+#define THINNEST 2e-6 /* rad, of a jet: of thinner ones the solid angle is round-off in a cap's */
 
 #define STEPS_MOST 60   /* each at least halves where the angle may be */
 #define PRECISION 1e-13 /* rad */
 
-sp_spray sp_turned_jet(const sp_spray *spray)
+static void open(const sp_nozzle_type *type, double angle, sp_spray *spray)
 {
-    sp_spray jet = *spray;
-    jet.kind = spray->jet;
-    return jet;
+    const sp_rotation *rotation = &type->rotation;
+    sp_nozzle_type jet = {.thickness = fmax(type->thickness, THINNEST), .hollow = type->hollow};
+    double sine = sin(rotation->tilt);
+    assert(sp_pattern_turns(rotation->jet));
+    spray->jet = rotation->jet;
+    spray->two_axes = rotation->jets > 0;
+    spray->spindle = sp_v(-sine * cos(rotation->roll), sine * sin(rotation->roll), cos(rotation->tilt));
+    sp_form_of(rotation->jet)->open(&jet, fmax(angle, THINNEST), spray);
 }
 
 static double tilt_of(const sp_spray *spray)
@@ -22,15 +31,12 @@ static double tilt_of(const sp_spray *spray)
     return atan2(hypot(spray->spindle.x, spray->spindle.y), spray->spindle.z);
 }
 
-void sp_turned_settle(sp_spray *spray)
+static void settle(sp_spray *spray)
 {
-    spray->low = 0;
-    spray->high = M_PI;
-    if (spray->two_axes)
-        return;
-    sp_spray jet = sp_turned_jet(spray);
-    spray->low = fmax(0, -sp_spray_margin(&jet, spray->spindle));
-    spray->high = M_PI - fmax(0, -sp_spray_margin(&jet, sp_scale(spray->spindle, -1)));
+    const sp_form *jet = sp_form_of(spray->jet);
+    jet->settle(spray);
+    spray->low = spray->two_axes ? 0 : fmax(0, -jet->margin(spray, spray->spindle));
+    spray->high = spray->two_axes ? M_PI : M_PI - fmax(0, -jet->margin(spray, sp_scale(spray->spindle, -1)));
     assert(spray->low < spray->high);
 }
 
@@ -97,7 +103,7 @@ static double densest(const sp_spray *spray)
     return acos(fmax(-1, fmin(1, cos(tilt_of(spray)) / cos(spray->outer))));
 }
 
-void sp_turned_densities(const sp_spray *spray, double from, double to, double *least, double *most)
+static void densities(const sp_spray *spray, double from, double to, double *least, double *most)
 {
     bool narrow = spray->jet != SP_PATTERN_FLAT_FAN && !(spray->inner > 0) && spray->outer < 0.499 * M_PI;
     *least = 0;
@@ -112,8 +118,8 @@ void sp_turned_densities(const sp_spray *spray, double from, double to, double *
     *most = fmax(peak, fmax(ends[0], ends[1]));
 }
 
-/* Newton's method, within bounds that close in on the angle. */
-double sp_turned_polar(const sp_spray *spray, double share)
+/* The polar angle within which this share of the liquid leaves, by Newton's method within bounds that close in. */
+static double polar_of(const sp_spray *spray, double share)
 {
     double low = spray->low, high = spray->high, polar = low + share * (high - low);
     assert(share >= 0 && share <= 1);
@@ -128,8 +134,29 @@ double sp_turned_polar(const sp_spray *spray, double share)
     return polar;
 }
 
-void sp_turned_ring(double polar, double breadth, double cap, double ring[2])
+static sp_vec3 direction(const sp_spray *spray, double u, double w)
 {
-    ring[0] = polar < cap ? 0 : polar > M_PI - cap ? M_PI - cap : polar - 0.5 * breadth;
-    ring[1] = polar < cap ? cap : polar > M_PI - cap ? M_PI : polar + 0.5 * breadth;
+    double polar = polar_of(spray, u), azimuth = 2 * M_PI * w;
+    return sp_v(sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar));
 }
+
+static double intensity(const sp_spray *spray, sp_vec3 direction)
+{
+    return sp_turned_density(spray, sp_polar_angle(direction));
+}
+
+static double margin(const sp_spray *spray, sp_vec3 direction)
+{
+    return sp_ring_margin(spray->low, spray->high, sp_polar_angle(direction));
+}
+
+const sp_form sp_rotating = {.open = open,
+                             .settle = settle,
+                             .intensity = intensity,
+                             .margin = margin,
+                             .margin_slope = sp_margin_differences,
+                             .share = sp_turned_share,
+                             .density = sp_turned_mean,
+                             .densities = densities,
+                             .direction = direction,
+                             .rim = sp_ring_rim};

@@ -1,22 +1,11 @@
 #include "overlay.h"
 
+#include "nozzle/pattern.h"
+
 #include <stdlib.h>
 
 #define RIM SP_OUTLINE
 #define LENGTH 0.12 /* of the box's diagonal that an outline reaches */
-
-/* Direction i of RIM along the edge of the spray, in the nozzle's frame. */
-static sp_vec3 rim_direction(const sp_spray *spray, int i)
-{
-    double edge = sp_spray_is_uniform(spray) ? spray->outer : spray->high;
-    if (edge > 0) {
-        double turn = 2 * M_PI * i / RIM;
-        return sp_v(sin(edge) * cos(turn), sin(edge) * sin(turn), cos(edge));
-    }
-    double way = (i % (RIM / 2)) / (RIM / 2 - 1.0), side = i < RIM / 2 ? 1 : -1;
-    double longitude = spray->half_width * (2 * way - 1) * side, latitude = spray->half_thickness * side;
-    return sp_v(cos(latitude) * sin(longitude), sin(latitude), cos(latitude) * cos(longitude));
-}
 
 typedef struct {
     double x, y;
@@ -78,7 +67,7 @@ void sp_overlay_outline(const sp_evaluator *evaluator, const sp_nozzle *pattern,
     sp_frame frame = sp_nozzle_frame(pattern->axis, pattern->roll, sp_evaluator_setup(evaluator)->up);
     sp_spray spray = sp_spray_create(pattern->type, sp_nozzle_angle(pattern));
     for (int i = 0; i < RIM; ++i) {
-        sp_vec3 d = rim_direction(&spray, i);
+        sp_vec3 d = sp_spray_rim(&spray, i, RIM);
         sp_vec3 world = sp_add(sp_add(sp_scale(frame.x, d.x), sp_scale(frame.y, d.y)), sp_scale(frame.z, d.z));
         rim[i] = sp_along(pattern->position, length, world);
     }

@@ -1,6 +1,9 @@
 /* How liquid leaves the nozzles: evenly, turning, or as it was measured. */
 #include "page.h"
 
+#include "nozzle/layers.h"
+#include "nozzle/rotation.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +12,7 @@ static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
 {
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k)
-            if (result->designs[i].layout->nozzles[k].type->pattern == SP_PATTERN_ROTATING)
+            if (sp_type_rotates(result->designs[i].layout->nozzles[k].type))
                 return true;
     return false;
 }
@@ -35,7 +38,7 @@ static void add_image(sp_text *text, const sp_nozzle_type *type)
     sp_markup_escape(text, name ? name : "");
     sp_text_add(text, " as it was measured, by the image ");
     sp_markup_escape(text, image ? image : "");
-    if (type->pattern == SP_PATTERN_CLUSTER)
+    if (sp_type_has_layers(type))
         sp_text_add(text, ", which says how fast besides (in %zu speeds from %.2g to %.2g times the exit speed)",
                     type->member_count, type->members[0].speed, type->members[type->member_count - 1].speed);
     text->failed |= !name || !image;
@@ -46,13 +49,13 @@ static void add_image(sp_text *text, const sp_nozzle_type *type)
 /* Of a cluster each image once that members one after another have; its own where that has speeds. */
 static void add_images(sp_text *text, const sp_nozzle_type *type)
 {
-    if (type->pattern == SP_PATTERN_MEASURED || type->image[0]) {
+    if (sp_type_is_measured(type) || sp_type_has_layers(type)) {
         add_image(text, type);
         return;
     }
     for (size_t i = 0; i < type->member_count; ++i) {
         const sp_nozzle_type *own = &type->members[i].type;
-        if (own->pattern == SP_PATTERN_MEASURED && (i == 0 || strcmp(own->image, type->members[i - 1].type.image) != 0))
+        if (sp_type_is_measured(own) && (i == 0 || strcmp(own->image, type->members[i - 1].type.image) != 0))
             add_image(text, own);
     }
 }

@@ -3,6 +3,7 @@
 
 #include "mesh/distance.h"
 #include "mounts/holds.h"
+#include "nozzle/pattern.h"
 
 #include <stdlib.h>
 
@@ -67,13 +68,13 @@ static void add_fitting(sp_fitting_row *row, const sp_setup *setup)
 static double turn_of(const sp_setup *setup, const sp_nozzle *nozzle, double towards)
 {
     const sp_datum *datum = &setup->datum;
-    sp_pattern pattern = nozzle->type->pattern;
-    if (pattern != SP_PATTERN_FLAT_FAN && pattern != SP_PATTERN_CLUSTER && pattern != SP_PATTERN_MEASURED)
+    double period = sp_type_roll_period(nozzle->type);
+    if (period == 0)
         return NAN;
     sp_vec3 level = sp_sub(sp_scale(across(datum), cos(towards)), sp_scale(datum->zero, sin(towards)));
     sp_vec3 x = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up).x;
     double turn = atan2(sp_dot(x, sp_cross(nozzle->axis, level)), sp_dot(x, level));
-    return rounded_turn(turn, TENTHS, pattern == SP_PATTERN_FLAT_FAN ? 180 : 360);
+    return rounded_turn(turn, TENTHS, rounded(period * DEG, 1));
 }
 
 static void add_axis(sp_fitting_row *row, const sp_setup *setup)

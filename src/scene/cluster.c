@@ -1,4 +1,5 @@
 /* The members of a cluster in the catalogue. */
+#include "nozzle/layers.h"
 #include "scene/state.h"
 
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static bool read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *
 {
     if (!sp_scene_read_image(scene, reader, node, type))
         return false;
-    if (type->pattern != SP_PATTERN_CLUSTER)
+    if (!sp_type_has_layers(type))
         return true;
     free(type->members);
     return sp_read_fail(reader, sp_yaml_get(node, "image"), "image", "an image without speeds in a cluster");

@@ -1,4 +1,5 @@
 /* image: of a measured type of the catalogue, or of a measured member of a cluster. */
+#include "nozzle/layers.h"
 #include "scene/state.h"
 
 #include <sprayplan/image.h>
@@ -76,28 +77,10 @@ static const sp_scene_image *add(sp_scene *scene, const sp_reader *reader, const
     return NULL;
 }
 
-/* The type becomes a cluster of its layers, in one place. */
-static bool take_layers(const sp_scene_image *image, sp_nozzle_type *type, sp_error *error)
-{
-    sp_member *members = calloc(image->layer_count, sizeof *members);
-    if (!members)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < image->layer_count; i++) {
-        const sp_speed_layer *layer = &image->layers[i];
-        members[i] = (sp_member){.type = *type, .axis = {0, 0, 1}, .share = layer->share, .speed = layer->speed};
-        members[i].type.patternation = layer->patternation;
-    }
-    type->pattern = SP_PATTERN_CLUSTER;
-    type->angle = type->angle_min = type->angle_max = 0;
-    type->members = members;
-    type->member_count = image->layer_count;
-    return true;
-}
-
 bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     const sp_yaml *image = sp_yaml_get(node, "image");
-    if (type->pattern != SP_PATTERN_MEASURED)
+    if (!sp_type_is_measured(type))
         return true;
     char *directory = sp_path_directory(image->file, reader->error);
     char *path = directory ? sp_scene_file(directory, "the catalogue", reader, image, "image") : NULL;
@@ -116,7 +99,7 @@ bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml
     else
         own = add(scene, reader, image, path, type->angle);
     if (own && own->speeds)
-        return take_layers(own, type, reader->error);
+        return sp_type_take_layers(type, own->layers, own->layer_count, reader->error);
     type->patternation = own ? own->layers[0].patternation : NULL;
     return own != NULL;
 }

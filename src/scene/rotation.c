@@ -1,4 +1,5 @@
 /* rotation: of a catalogue type that turns about two axes. */
+#include "nozzle/rotation.h"
 #include "scene/state.h"
 
 #define WIDEST 90 /* deg: the mean over a jet is told well up to there */
@@ -41,7 +42,7 @@ static bool check_jet(const sp_reader *reader, const sp_yaml *rotation, const sp
         if (child)
             return sp_read_fail(reader, child, leaning[i], "none beside gears: jets on a hub point outwards from it");
     }
-    if (type->rotation.jet == SP_PATTERN_FLAT_FAN)
+    if (!sp_pattern_fits_hub(type->rotation.jet))
         return sp_read_fail(reader, sp_yaml_get(jet, "pattern"), "pattern",
                             "full_cone, hollow_cone or solid_stream beside gears");
     if (type->angle > WIDEST * acos(-1) / 180 * (1 + 1e-12))

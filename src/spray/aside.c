@@ -2,6 +2,7 @@
  * of the vertical, as it is 2b at least. */
 #include "aside.h"
 
+#include "nozzle/pattern.h"
 #include "spray/drag/fronts.h"
 
 #define ROUND_OFF 1e-12 /* rad */
@@ -53,24 +54,24 @@ static double latitude(sp_vec3 direction, const sp_frame *frame)
     return fabs(asin(fmin(1, fmax(-1, sp_dot(direction, frame->y)))));
 }
 
-/* Whether all directions within `angle` of one lie outside of a cone or, where there is one, of a fan. */
-static bool is_outside(sp_vec3 direction, double angle, sp_vec3 axis, double half_angle, const sp_emitter *fan,
+/* Whether all directions within `angle` of one lie outside of a cone or, of an emitter that is flat, beside it. */
+static bool is_outside(sp_vec3 direction, double angle, sp_vec3 axis, double half_angle, const sp_emitter *flat,
                        double beyond)
 {
     double most = angle + beyond + ROUND_OFF;
     return angle_between(direction, axis) > half_angle + most ||
-           (fan && latitude(direction, &fan->frame) > fan->spray.half_thickness + most);
+           (flat && latitude(direction, &flat->frame) > sp_spray_latitude(&flat->spray) + most);
 }
 
 bool sp_spray_is_aside(const sp_source *source, sp_vec3 axis, double half_angle, const sp_emitter *emitter,
                        double beyond, sp_vec3 point, double radius)
 {
     leaving leaving;
-    const sp_emitter *fan = emitter && emitter->spray.kind == SP_PATTERN_FLAT_FAN ? emitter : NULL;
-    if ((!fan && half_angle + beyond >= M_PI) || !leaving_for(source, point, radius, &leaving))
+    const sp_emitter *flat = emitter && sp_spray_latitude(&emitter->spray) < M_PI / 2 ? emitter : NULL;
+    if ((!flat && half_angle + beyond >= M_PI) || !leaving_for(source, point, radius, &leaving))
         return false;
-    return is_outside(leaving.low, leaving.low_angle, axis, half_angle, fan, beyond) &&
-           (leaving.high_angle < 0 || is_outside(leaving.high, leaving.high_angle, axis, half_angle, fan, beyond));
+    return is_outside(leaving.low, leaving.low_angle, axis, half_angle, flat, beyond) &&
+           (leaving.high_angle < 0 || is_outside(leaving.high, leaving.high_angle, axis, half_angle, flat, beyond));
 }
 
 /* With ε = g d/v², what is arrived at at w: v t is d/√(1 + ε) at least, as T is d²/b, D is v⁴ (1 - 2ε) at least and w²

@@ -4,8 +4,8 @@
 
 #include "emitter.h"
 
-/* Whether no flight to within `radius` (m) of a point leaves within half_angle + `beyond` (rad) of the unit `axis`, nor,
- * where an emitter is given that is a fan, within its thickness and as much beyond. */
+/* Whether no flight to within `radius` (m) of a point leaves within half_angle + `beyond` (rad) of the unit `axis`,
+ * nor, where an emitter is given, within the latitude of its spray and as much beyond. */
 bool sp_spray_is_aside(const sp_source *source, sp_vec3 axis, double half_angle, const sp_emitter *emitter,
                        double beyond, sp_vec3 point, double radius);
 /* No less than sp_flight_breadth of any of these flights, of a square of edge `length` (m). */

@@ -16,6 +16,7 @@
 #include "bodies.h"
 #include "emitter.h"
 #include "near.h"
+#include "nozzle/pattern.h"
 #include "shaft.h"
 
 #include <stdlib.h>
@@ -166,13 +167,6 @@ static bool flight_bounds_of(const bounding *b, const spraying *s, const workpla
     return true;
 }
 
-static double margin_to(const sp_emitter *emitter, sp_vec3 direction)
-{
-    const sp_frame *frame = &emitter->frame;
-    sp_vec3 local = sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
-    return sp_spray_margin(&emitter->spray, local);
-}
-
 /* The share of the patch that the evaluator gives to a flight; -1 where the pattern holds its direction all the same.
  */
 static double share_of(const sp_emitter *emitter, const sp_target *target, const sp_flight *flight)
@@ -206,7 +200,7 @@ static void flux_of(const spraying *s, sp_vec3 axis, double reach, double thresh
     sp_vec3 z = s->straight.frame.z;
     double polar = atan2(sp_length(sp_cross(axis, z)), sp_dot(axis, z)), least, most;
     sp_spray_densities(spray, fmax(0, polar - reach), fmin(M_PI, polar + reach), &least, &most);
-    if (threshold > 0 || spray->kind == SP_PATTERN_MEASURED)
+    if (threshold > 0 || sp_spray_has_gaps(spray))
         flux[0] = s->flow * least * (1 - SLACK);
     flux[1] = s->flow * most * (1 + SLACK);
 }
@@ -217,7 +211,7 @@ static bool high_arcs_fail(const bounding *b, const spraying *s, const workplace
 {
     double v = s->falling.source.speed, slow = sqrt(2 * flights->b_least - v * v);
     double lean = b->g * (flights->level + flights->radius) / sqrt(2 * flights->b_least);
-    if (s->roofed || (share == 0 && lean < v && margin_to(&s->falling, b->up) < -asin(lean / v) - SLACK))
+    if (s->roofed || (share == 0 && lean < v && sp_emitter_margin(&s->falling, b->up) < -asin(lean / v) - SLACK))
         return true;
     if (!(lean < slow))
         return false;
@@ -253,7 +247,7 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
     *high = !high_arcs_fail(b, s, w, target.side, &flights, share[2]);
     slow = fmin(v, sqrt(2 * flights.b_least - v * v)) * (1 - SLACK);
     fast = fmax(v, sqrt(2 * flights.b_most - v * v)) * (1 + SLACK);
-    double margin = margin_to(&s->straight, shaft->axis), reach = flights.spread + flights.turn;
+    double margin = sp_emitter_margin(&s->straight, shaft->axis), reach = flights.spread + flights.turn;
     double limit = fmin(M_PI / 2, criterion->incidence);
     *most = 0;
     if (fast < criterion->impact_speed || flights.incidence_least > limit + SLACK ||

@@ -1,5 +1,8 @@
 #include "emitter.h"
 
+#include "nozzle/frame.h"
+#include "nozzle/pattern.h"
+
 #include <assert.h>
 
 /* How long nothing stops a jet, as on which side of the wall it stands in a nozzle is, is round-off: until it has gone
@@ -38,12 +41,6 @@ double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival)
     return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, arrival->breadth);
 }
 
-/* A direction of the world in the nozzle's frame. */
-static sp_vec3 local(const sp_frame *frame, sp_vec3 direction)
-{
-    return sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
-}
-
 double sp_emitter_flux(const sp_emitter *emitter, double flow, const sp_arrival *arrival, double share)
 {
     const sp_spray *spray = &emitter->spray;
@@ -52,16 +49,16 @@ double sp_emitter_flux(const sp_emitter *emitter, double flow, const sp_arrival 
     if (sp_spray_is_uniform(spray))
         return flow / spray->solid_angle * arrival->transfer;
     double density = share > 0 ? sp_spray_density(spray, frame, arrival->direction, arrival->breadth) / share
-                               : sp_spray_intensity(spray, local(frame, arrival->direction));
+                               : sp_spray_intensity(spray, sp_frame_local(frame, arrival->direction));
     return flow * density * arrival->transfer;
 }
 
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction)
 {
-    return sp_spray_intensity(&emitter->spray, local(&emitter->frame, direction)) > 0;
+    return sp_spray_holds(&emitter->spray, &emitter->frame, direction);
 }
 
 double sp_emitter_margin(const sp_emitter *emitter, sp_vec3 direction)
 {
-    return sp_spray_margin(&emitter->spray, local(&emitter->frame, direction));
+    return sp_spray_margin(&emitter->spray, sp_frame_local(&emitter->frame, direction));
 }

@@ -1,5 +1,7 @@
 /* How far the surface is from the tracks of a two-axis head. */
 #include "bodies.h"
+#include "nozzle/frame.h"
+#include "nozzle/rotation.h"
 #include "reach.h"
 
 #include <sprayplan/tracks.h>
@@ -27,7 +29,7 @@ static size_t list_shares(const sp_emitter *emitter, const sp_reach *reach, cons
     size_t count = 0;
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
-        sp_vec3 d = arrival->direction, local = sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
+        sp_vec3 local = sp_frame_local(frame, arrival->direction);
         double gap =
             sp_track_angle(rotation, rotation->turns, local) * sp_distance(emitter->source.position, arrival->point);
         bool same = i > 0 && reach->arrivals[i - 1].patch == arrival->patch;
@@ -60,7 +62,7 @@ bool sp_find_track_gaps(const sp_evaluator *evaluator, const sp_nozzle *nozzle, 
         return false;
     const sp_rotation *rotation = &nozzle->type->rotation;
     *gaps = (sp_track_gaps){.known = false};
-    if (nozzle->type->pattern != SP_PATTERN_ROTATING || rotation->jets == 0)
+    if (!sp_type_has_tracks(nozzle->type))
         return true;
     sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
     sp_bodies bodies;

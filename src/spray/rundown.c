@@ -2,6 +2,7 @@
 
 #include "discs.h"
 #include "film/laminar.h"
+#include "nozzle/pattern.h"
 #include "resolution.h"
 
 #include <stdlib.h>
@@ -169,7 +170,7 @@ static sp_layout *part_of_layout(const sp_layout *layout, bool streams, sp_error
 {
     sp_layout *part = sp_layout_create(layout->nozzles, layout->count, error);
     for (size_t i = part ? part->count : 0; i-- > 0;)
-        if ((part->nozzles[i].type->pattern == SP_PATTERN_SOLID_STREAM) != streams)
+        if (sp_type_is_stream(part->nozzles[i].type) != streams)
             part->nozzles[i] = part->nozzles[--part->count];
     return part;
 }

@@ -1,5 +1,6 @@
 /* Film, or the dose of goods that move, nozzle by nozzle, for who adds up those of many layouts. */
 #include "discs.h"
+#include "nozzle/pattern.h"
 #include "rundown.h"
 
 #include <stdlib.h>
@@ -82,7 +83,7 @@ void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, 
         find_dose(runoff, film);
         return;
     }
-    if (type->pattern == SP_PATTERN_SOLID_STREAM) {
+    if (sp_type_is_stream(type)) {
         from = runoff->spread;
         memset(from, 0, count * sizeof *from);
         sp_discs_add(&runoff->discs, &walls->setup.liquid, flow, runoff->arriving, from);

@@ -2,6 +2,7 @@
 
 #include "live/live.h"
 #include "live/numbers.h"
+#include "nozzle/layers.h"
 #include "packed.h"
 #include "script.h"
 #include "spray/restore.h"
@@ -21,10 +22,7 @@ const sp_evaluator *sp_page_live_evaluator(const sp_page *page)
 /* A measured pattern does not travel with the page, and drops that air holds back are not known to what does. */
 static bool stays_behind(const sp_nozzle_type *type)
 {
-    bool stays = type->pattern == SP_PATTERN_MEASURED || type->trajectory == SP_TRAJECTORY_DRAG;
-    for (size_t i = 0; i < type->member_count; i++)
-        stays |= type->members[i].type.pattern == SP_PATTERN_MEASURED;
-    return stays;
+    return sp_type_needs_images(type) || type->trajectory == SP_TRAJECTORY_DRAG;
 }
 
 static bool any_stays_behind(const sp_page *page)

@@ -1,6 +1,8 @@
 /* The drag of single drops in air at rest, and where streams become drops. */
 #include <sprayplan/flight.h>
 
+#include "nozzle/rotation.h"
+
 #define REYNOLDS_MOST 1e300 /* beyond, the coefficient's powers overflow */
 
 sp_drag sp_drag_of_drops(double diameter, const sp_fluid *liquid, const sp_fluid *air)
@@ -25,11 +27,8 @@ sp_drag sp_drag_of(const sp_nozzle *nozzle, const sp_fluid *liquid, const sp_flu
 {
     const sp_nozzle_type *type = nozzle->type;
     sp_drag drag = sp_drag_of_drops(type->drop, liquid, air);
-    bool rotates = type->pattern == SP_PATTERN_ROTATING;
-    double speed = sp_nozzle_speed(nozzle, liquid), flow = sp_nozzle_flow(nozzle, liquid);
-    if (rotates && type->rotation.jets > 0)
-        flow /= type->rotation.jets;
-    if ((rotates ? type->rotation.jet : type->pattern) == SP_PATTERN_SOLID_STREAM && flow > 0 && speed > 0)
+    double speed = sp_nozzle_speed(nozzle, liquid), flow = sp_nozzle_flow(nozzle, liquid) / sp_type_jets(type);
+    if (sp_type_leaves_as_stream(type) && flow > 0 && speed > 0)
         drag.delay = break_up(flow, speed, liquid);
     return drag;
 }
