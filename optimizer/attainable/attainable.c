@@ -27,7 +27,7 @@ static double best_intensity(const sp_variant *variant, const sp_scope *scope, d
     const sp_nozzle_type *type = variant->type;
     if (!sp_type_is_uniform(type)) /* somewhere in it: what it brings there its footprints tell */
         return least <= variant->reach;
-    double angle = fmax(scope->angle_low, 2 * least);
+    double angle = fmax(scope->angle_low, sp_type_angle_reaching(type, least));
     if (angle > scope->angle_high * (1 + 1e-12)) {
         if (least > variant->reach)
             return 0;

@@ -116,9 +116,7 @@ double sp_aim_cell_intensity(const sp_aim_cell *cell, const sp_aim_kind *kind)
 
 double sp_aim_cell_intensity_least(const sp_aim_cell *cell, const sp_aim_kind *kind)
 {
-    double low = sp_spray_create(kind->type, cell->angle_low).solid_angle;
-    double high = sp_spray_create(kind->type, cell->angle_high).solid_angle;
-    return kind->edge[cell->step] / fmax(low, high);
+    return kind->edge[cell->step] / sp_type_solid_angle_most(kind->type, cell->angle_low, cell->angle_high);
 }
 
 sp_aim_cell sp_aim_cell_middle(const sp_aim_cell *cell, const sp_aim_kind *kind)

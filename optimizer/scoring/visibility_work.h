@@ -1,5 +1,6 @@
-/* What the files of sp_visibility share: visibility_survey.c traces all views for the first time, visibility_desks.c
- * works out again those that are not kept, visibility_fit.c chooses patches that time allows. */
+/* What the files of sp_visibility share: visibility_create.c begins and ends it, visibility_survey.c traces all views
+ * for the first time, visibility_desks.c works out again those that are not kept, visibility_fit.c chooses patches that
+ * time allows. */
 #ifndef OPTIMIZER_VISIBILITY_WORK_H
 #define OPTIMIZER_VISIBILITY_WORK_H
 

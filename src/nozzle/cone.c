@@ -103,6 +103,12 @@ static sp_vec3 direction(const sp_spray *spray, double u, double w)
     return sp_v(level * cos(azimuth), level * sin(azimuth), 1 - h);
 }
 
+static double angle_reaching(const sp_nozzle_type *type, double polar)
+{
+    (void)type;
+    return 2 * polar;
+}
+
 static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack)
 {
     (void)roll;
@@ -112,7 +118,7 @@ static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double r
 
 #define CONE                                                                                                           \
     .settle = settle, .intensity = intensity, .margin = margin, .margin_slope = margin_slope, .share = share,          \
-    .direction = direction, .rim = sp_ring_rim, .widen = widen
+    .direction = direction, .rim = sp_ring_rim, .angle_reaching = angle_reaching, .widen = widen
 
 const sp_form sp_full_cone = {.swept = true, .open = open_full, CONE};
 const sp_form sp_hollow_cone = {.swept = true, .open = open_hollow, CONE};

@@ -96,6 +96,14 @@ static sp_vec3 rim(const sp_spray *spray, int i, int count)
     return sp_v(cos(latitude) * sin(longitude), sin(latitude), cos(latitude) * cos(longitude));
 }
 
+/* With its corners, see `reach`. */
+static double angle_reaching(const sp_nozzle_type *type, double polar)
+{
+    if (polar >= 0.5 * M_PI)
+        return 2 * polar;
+    return 2 * acos(fmin(1, cos(polar) / cos(0.5 * type->thickness)));
+}
+
 /* A roll moves a direction by as much times the sine of its polar angle. On a sphere a circle of radius r about
  * latitude φ spans the longitudes ±asin(sin r / cos φ). */
 static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack)
@@ -119,4 +127,5 @@ const sp_form sp_flat_fan = {.swept = true,
                              .share = share,
                              .direction = direction,
                              .rim = rim,
+                             .angle_reaching = angle_reaching,
                              .widen = widen};

@@ -31,6 +31,8 @@ typedef struct {
     /* Of a point of the unit square, so that equal areas get as much liquid. */
     sp_vec3 (*direction)(const sp_spray *spray, double u, double w);
     sp_vec3 (*rim)(const sp_spray *spray, int i, int count);
+    /* See sp_type_angle_reaching; swept forms only. */
+    double (*angle_reaching)(const sp_nozzle_type *type, double polar);
     /* See sp_spray_widened: `spray` is as wide as any; swept forms only. */
     void (*widen)(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack);
 } sp_form;

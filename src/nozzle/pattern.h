@@ -26,6 +26,13 @@ static inline bool sp_type_is_stream(const sp_nozzle_type *type)
 {
     return sp_form_of(type->pattern)->stream;
 }
+/* The least angle (rad) to which a swept type has to be opened for its region to reach a polar angle. */
+static inline double sp_type_angle_reaching(const sp_nozzle_type *type, double polar)
+{
+    return sp_form_of(type->pattern)->angle_reaching(type, polar);
+}
+/* The most (sr) that the solid angle of a swept type comes to, opened to an angle between; by up to 1e-9 of it more. */
+double sp_type_solid_angle_most(const sp_nozzle_type *type, double low, double high);
 /* Half-angle (rad) of the smallest cone about the body's axis that holds all that a type opened to an angle sprays, if
  * the members of a cluster had no offsets. cluster.c. */
 double sp_type_reach(const sp_nozzle_type *type, double angle);

@@ -131,6 +131,40 @@ static void widened_holds_all_that_are_meant(void **state)
     }
 }
 
+static void opened_so_far_it_just_reaches(void **state)
+{
+    (void)state;
+    for (int k = 0; k < CASES; k++)
+        for (int i = 1; sp_type_is_uniform(&types[k]) && i < 30; i++) {
+            double polar = i * M_PI / 30, angle = sp_type_angle_reaching(&types[k], polar);
+            sp_spray spray = sp_spray_create(&types[k], angle), less = sp_spray_create(&types[k], 0.99 * angle);
+            /* a fan's thickness reaches so far by itself */
+            assert_true(angle > 0 || polar <= 0.5 * types[k].thickness + 1e-9);
+            assert_true(spray.high >= polar * (1 - 1e-9));
+            assert_true(angle == 0 || less.high < polar * (1 - 1e-4));
+        }
+}
+
+/* A hollow cone of a half-space and more has its largest solid angle at neither end of its range. */
+static void between_two_angles_none_has_a_larger_solid_angle(void **state)
+{
+    (void)state;
+    const sp_nozzle_type hollow = {.pattern = SP_PATTERN_HOLLOW_CONE, .hollow = 0.8};
+    const double ranges[][2] = {{3, 2 * M_PI}, {1, 2}, {1, 5}, {5.5, 6}, {4, 4}};
+    for (int k = 0; k < CASES + 1; k++) {
+        const sp_nozzle_type *type = k < CASES ? &types[k] : &hollow;
+        for (size_t r = 0; sp_type_is_uniform(type) && r < sizeof ranges / sizeof *ranges; r++) {
+            double low = ranges[r][0], high = ranges[r][1], found = 0;
+            for (int i = 0; i <= 5000; i++)
+                found = fmax(found, sp_spray_create(type, low + (high - low) * i / 5000).solid_angle);
+            double most = sp_type_solid_angle_most(type, low, high);
+            assert_true(most >= found && most <= found * (1 + 1e-6));
+        }
+    }
+    double widest = sp_spray_create(&hollow, 2 * M_PI).solid_angle, half = sp_spray_create(&hollow, 3).solid_angle;
+    assert_true(sp_type_solid_angle_most(&hollow, 3, 2 * M_PI) > 1.3 * fmax(widest, half));
+}
+
 static void jets_that_turn_are_cones_fans_or_streams(void **state)
 {
     (void)state;
@@ -149,6 +183,8 @@ int main(void)
         cmocka_unit_test(what_it_holds_lies_within_its_limits),
         cmocka_unit_test(margins_change_as_their_slope_says),
         cmocka_unit_test(widened_holds_all_that_are_meant),
+        cmocka_unit_test(opened_so_far_it_just_reaches),
+        cmocka_unit_test(between_two_angles_none_has_a_larger_solid_angle),
         cmocka_unit_test(jets_that_turn_are_cones_fans_or_streams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
