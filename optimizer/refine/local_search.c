@@ -189,9 +189,8 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
 }
 
 /* Walks, where the trial is to begin so. */
-static bool walk(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
+static bool walk(const sp_local_search *local, sp_trial *trial, sp_error *error)
 {
-    (void)thread;
     return trial->kind != SP_TRIAL_WALK || (sp_partial_copy(local->search, &trial->partial, &trial->start, error) &&
                                             sp_walk(&local->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
                                                     trial->seed, local->deadline, &trial->start, error));
@@ -236,9 +235,9 @@ static bool begin(const sp_local_search *local, sp_trial *trial, sp_partial *sta
 }
 
 /* The refined layout on the search's own patches, turned a little more on these, becomes the trial's. */
-static bool take_over(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
+static bool take_over(const sp_local_search *local, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &local->sights[thread];
+    sp_sights *sights = &local->sights[omp_get_thread_num()];
     sp_partial partial;
     sp_sights_forget(sights);
     if (!transfer(sights, &trial->refined, &partial, error))
@@ -253,9 +252,9 @@ static bool take_over(const sp_local_search *local, int thread, sp_trial *trial,
     return true;
 }
 
-static bool search_locally(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
+static bool search_locally(const sp_local_search *local, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &local->rough_sights[thread];
+    sp_sights *sights = &local->rough_sights[omp_get_thread_num()];
     sp_partial start;
     double before;
     if (trial->repeats || !sp_deadline_goes_on(local->deadline, "refine", 0))
@@ -284,7 +283,8 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
     return trials[i].better;
 }
 
-typedef bool (*trial_step)(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error);
+/* On a thread of its own, with that thread's sights. */
+typedef bool (*trial_step)(const sp_local_search *local, sp_trial *trial, sp_error *error);
 
 static sp_ranks *ranks_of(const sp_local_search *local)
 {
@@ -292,11 +292,11 @@ static sp_ranks *ranks_of(const sp_local_search *local)
 }
 
 /* Takes the step for trial i where it is this rank's, and all are asked for, or it is better. */
-static void take(const sp_local_search *local, int thread, sp_trial *trials, size_t i, bool better, trial_step step,
+static void take(const sp_local_search *local, sp_trial *trials, size_t i, bool better, trial_step step,
                  sp_error *failure)
 {
     sp_error mine = {0};
-    if (sp_ranks_mine(ranks_of(local), i) && (!better || trials[i].better) && !step(local, thread, &trials[i], &mine)) {
+    if (sp_ranks_mine(ranks_of(local), i) && (!better || trials[i].better) && !step(local, &trials[i], &mine)) {
 #pragma omp critical(sp_local_search_failure)
         *failure = mine;
     }
@@ -311,7 +311,7 @@ static bool for_each(const sp_local_search *local, sp_trial *trials, size_t coun
     sp_ranks_part(ranks_of(local));
 #pragma omp parallel for num_threads(local->threads) schedule(dynamic, 1)
     for (size_t k = 0; k < count; k++)
-        take(local, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
+        take(local, trials, count - 1 - k, better, step, &failure);
     sp_ranks_rejoin(ranks_of(local));
     if (failure.kind == SP_OK)
         return true;
@@ -382,9 +382,9 @@ bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count,
 }
 
 /* On the final patches, then as the search's own see it. */
-static bool sharpen(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
+static bool sharpen(const sp_local_search *local, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &local->sharp_sights[thread], *own = &local->sights[thread];
+    sp_sights *sights = &local->sharp_sights[omp_get_thread_num()], *own = &local->sights[omp_get_thread_num()];
     sp_partial sharp, partial;
     sp_sights_forget(sights);
     sp_sights_forget(own);

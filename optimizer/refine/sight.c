@@ -33,7 +33,7 @@ bool sp_sights_create(const sp_search *search, size_t capacity, bool exact, sp_s
 void sp_sights_forget(sp_sights *sights)
 {
     for (size_t i = 0; i < sights->capacity; i++) {
-        free(sights->items[i].seen);
+        sp_reach_destroy(sights->items[i].reach);
         sights->items[i] = (sp_sight){0};
     }
     /* what room an earlier layout needed must not tell what is remembered of the next */
@@ -70,28 +70,15 @@ static bool is_same(const sp_launch *a, const sp_launch *b)
 
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->launch,
-                                                             sight->axis, sight->half_angle, error)
-                                        : sp_evaluator_reach_passing(search->coarse, sight->position, sight->launch,
-                                                                     sight->axis, sight->half_angle, NULL, error);
-    if (!reach)
+    sight->reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->launch, sight->axis,
+                                                          sight->half_angle, error)
+                                     : sp_evaluator_reach_passing(search->coarse, sight->position, sight->launch,
+                                                                  sight->axis, sight->half_angle, NULL, error);
+    if (!sight->reach)
         return false;
-    sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
-    for (size_t i = 0; sight->seen && i < reach->count; i++) {
-        const sp_arrival *arrival = &reach->arrivals[i];
-        sight->seen[sight->count++] = (sp_seen){.patch = arrival->patch,
-                                                .passes = arrival->passes,
-                                                .arc = arrival->arc,
-                                                .part = arrival->part,
-                                                .point = arrival->point,
-                                                .normal = arrival->normal,
-                                                .direction = arrival->direction,
-                                                .transfer = arrival->transfer,
-                                                .breadth = arrival->breadth,
-                                                .time = arrival->time};
-    }
-    sp_reach_destroy(reach);
-    return sight->seen || sp_fail_memory(error);
+    sight->count = sight->reach->count;
+    sight->seen = sight->reach->arrivals;
+    return true;
 }
 
 /* The sight nearest to the one wanted of those that will do; NULL for none. */
@@ -101,7 +88,7 @@ static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
     double nearest = nextafter(sights->tolerance, INFINITY);
     for (size_t i = 0; i < sights->capacity; i++) {
         sp_sight *item = &sights->items[i];
-        if (!item->seen || !is_same(&item->launch, &wanted->launch) || item->half_angle < wanted->half_angle ||
+        if (!item->reach || !is_same(&item->launch, &wanted->launch) || item->half_angle < wanted->half_angle ||
             (item->half_angle < M_PI && !equal(item->axis, wanted->axis)))
             continue;
         double distance = sp_distance(item->position, wanted->position);
@@ -130,19 +117,17 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
         for (size_t i = 1; i < sights->capacity; i++)
             if (sights->items[i].used < sight->used)
                 sight = &sights->items[i];
-        free(sight->seen);
+        sp_reach_destroy(sight->reach);
         *sight = (sp_sight){0};
-        if (!trace(search, &wanted, error)) {
-            free(wanted.seen);
+        if (!trace(search, &wanted, error))
             return NULL;
-        }
         *sight = wanted;
     }
     sight->used = ++sights->clock;
     return sight;
 }
 
-bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
+bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_arrival *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer)
 {
     sp_flight near = {.direction = seen->direction, .time = seen->time};
@@ -164,7 +149,7 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     bool moved = !equal(nozzle->position, sight->position);
     sp_field_making making = sp_field_begin(search, &posed, 1, field);
     for (size_t i = 0; i < sight->count; i++) {
-        const sp_seen *seen = &sight->seen[i];
+        const sp_arrival *seen = &sight->seen[i];
         if (partial && partial->wet[seen->patch] >= SP_ENOUGH && !search->runoffs)
             continue;
         sp_flight flight = {.direction = seen->direction};

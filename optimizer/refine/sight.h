@@ -4,28 +4,17 @@
 
 #include "scoring/partial.h"
 
-/* An arrival that passes the criterion's speed and incidence; where film is asked for, any. */
-typedef struct {
-    uint32_t patch;
-    bool passes;
-    uint32_t arc; /* 0: low arc or line, 1: high arc */
-    double part;  /* of the patch, that the arrival is of */
-    sp_vec3 point, normal;
-    sp_vec3 direction;
-    double transfer; /* 1/m² */
-    double breadth;  /* rad */
-    double time;     /* s */
-} sp_seen;
-
 typedef struct {
     sp_vec3 position;
     sp_launch launch;
     sp_vec3 gravity; /* m/s², of what flies without drag */
     sp_vec3 axis;    /* what lies within half_angle about it */
     double half_angle;
+    sp_reach *reach;
     size_t count;
-    sp_seen *seen; /* [count], ascending by patch */
-    uint64_t used; /* when, for the sights to forget the one that was not needed for longest */
+    const sp_arrival *seen; /* [count], ascending by patch: the reach's, of what passes the criterion's speed and
+                             * incidence; where film is asked for, of all */
+    uint64_t used;          /* when, for the sights to forget the one that was not needed for longest */
 } sp_sight;
 
 /* Sights kept for another look: annealing, line search and compass come back to the same places. */
@@ -50,7 +39,7 @@ void sp_sights_free(sp_sights *sights);
  * move, whose footprint is its field. Valid for the next capacity - 1 looks; NULL on error. */
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error);
 /* Flies to a patch in sight, or its cell, from `position`, visibility as it was; false where no liquid arrives. */
-bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
+bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_arrival *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer);
 /* The nozzle's field from where it is, visibility as in the sight; looking for oneself. Where a layout is given, only
  * on the patches that it leaves dry: what the nozzle adds to it is the same. */

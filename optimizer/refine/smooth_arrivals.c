@@ -87,7 +87,7 @@ typedef struct {
 } sp_borne;
 
 /* False where nothing is left of the pattern. */
-static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool slopes, sp_borne *borne)
+static bool bear(const sp_posed *posed, const sp_arrival *seen, bool flies, bool slopes, sp_borne *borne)
 {
     borne->flight.direction = seen->direction;
     borne->transfer = seen->transfer;
@@ -114,7 +114,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
 /* Derivatives of a flight when its start moves along `move`, without drag differentiated from |r - g t²/2| = v t; with
  * u the direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and
  * u'. */
-static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
+static double shift(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, sp_vec3 move, sp_vec3 *turn)
 {
     sp_vec3 g = posed->sight->gravity;
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
@@ -140,7 +140,7 @@ typedef struct {
     double flux, share;
 } sp_log_slope;
 
-static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t k)
+static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t k)
 {
     const sp_pose_parameters *parameters = posed->parameters;
     double edge = (1 - borne->inside) / borne->edge;
@@ -180,7 +180,7 @@ static double alone_of(const sp_posed *posed, double flux, double *rise)
     return cover;
 }
 
-static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
+static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t i,
                         const sp_smooth_arrivals *arrivals)
 {
     double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
@@ -200,7 +200,7 @@ static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_s
 }
 
 /* The liquid that an arrival brings its patch, m³/s, and by how much that changes with every unknown. */
-static void bring(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
+static void bring(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t i,
                   const sp_brought *brought)
 {
     const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
@@ -237,7 +237,7 @@ void sp_smooth_arrivals_set(const sp_search *search, const sp_pose_parameters *p
     sp_posed posed = pose(search, parameters, sight, width, values, slopes);
     bool flies = posed.moved || (slopes && has_place(parameters));
     for (size_t i = first; i < end; i++) {
-        const sp_seen *seen = &sight->seen[i];
+        const sp_arrival *seen = &sight->seen[i];
         sp_borne borne = {0};
         bool there = bear(&posed, seen, flies, slopes, &borne);
         if (there && seen->passes) {
