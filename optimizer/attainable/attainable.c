@@ -3,6 +3,7 @@
 #include "attainable/bounce.h"
 #include "attainable/passing.h"
 #include "attainable/runs.h"
+#include "spray/criterion.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -90,9 +91,9 @@ static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, s
         against = fabs(against);
     if (!(against > 0))
         return SP_REASON_NO_LINE;
-    if (sp_length(flight->velocity) < criterion->impact_speed)
+    if (!sp_is_fast_enough(criterion, sp_length(flight->velocity)))
         return SP_REASON_SLOW;
-    if (atan2(sp_length(sp_cross(flight->velocity, patches->normal[patch])), against) > criterion->incidence)
+    if (!sp_is_steep_enough(criterion, sp_incidence(flight->velocity, patches->normal[patch], against)))
         return SP_REASON_SLANTED;
     *transfer = against / flight->spread;
     return SP_REASON_FLUX;

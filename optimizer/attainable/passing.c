@@ -2,15 +2,16 @@
 
 #include "attainable/coarse_patch.h"
 #include "scoring/scoring.h"
+#include "spray/criterion.h"
 
 #include <omp.h>
 #include <stdlib.h>
 
 static sp_reason reason_of(const sp_criterion *criterion, const sp_arrival *arrival)
 {
-    return arrival->passes                            ? SP_REASON_FLUX
-           : arrival->speed < criterion->impact_speed ? SP_REASON_SLOW
-                                                      : SP_REASON_SLANTED;
+    if (arrival->passes)
+        return SP_REASON_FLUX;
+    return sp_is_fast_enough(criterion, arrival->speed) ? SP_REASON_SLANTED : SP_REASON_SLOW;
 }
 
 /* What a view comes to: the nearest of all, whichever thread came first. */

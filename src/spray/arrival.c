@@ -1,6 +1,7 @@
 /* How liquid arrives: from which side, how fast, how steeply, how densely, and whether the way is free. */
 #include "arrival.h"
 
+#include "criterion.h"
 #include "spray/drag/chain.h"
 
 /* Share of a flight's time at either end in which nothing blocks it: the surface that it leaves or meets lies there,
@@ -34,8 +35,8 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
     arrival->normal = target->normal;
     arrival->transfer = against / flight->spread;
     arrival->speed = sp_length(flight->velocity);
-    arrival->incidence = atan2(sp_length(sp_cross(flight->velocity, target->normal)), against);
-    arrival->passes = arrival->speed >= criterion->impact_speed && arrival->incidence <= criterion->incidence;
+    arrival->incidence = sp_incidence(flight->velocity, target->normal, against);
+    arrival->passes = sp_impact_passes(criterion, arrival->speed, arrival->incidence);
     return true;
 }
 

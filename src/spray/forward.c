@@ -2,6 +2,7 @@
  * patches that they hit (study 3.2.3 and 3.3.1). */
 #include "bodies.h"
 #include "bounce.h"
+#include "criterion.h"
 #include "emitter.h"
 #include "launch.h"
 #include "lit.h"
@@ -72,8 +73,8 @@ static void strike(jet_flight *flight, size_t i)
     double along_normal = sp_dot(velocity, normal);
     impact->flow = flight->flow[i];
     impact->speed = sp_length(velocity);
-    impact->incidence = impact->speed > 0 ? acos(fmin(1, fabs(along_normal) / impact->speed)) : 0;
-    impact->passes = impact->speed >= criterion->impact_speed && impact->incidence <= criterion->incidence;
+    impact->incidence = sp_incidence(velocity, normal, fabs(along_normal));
+    impact->passes = sp_impact_passes(criterion, impact->speed, impact->incidence);
     uint32_t patch = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, along_normal > 0);
     if (patch != SP_NONE && evaluator->fidelity.splat == SP_SPLAT_LINEAR)
         sp_share_linearly(evaluator, hit, along_normal > 0, patch, &impact->shares);

@@ -1,4 +1,5 @@
 /* Shadows: connected regions that the criteria do not find covered. */
+#include "criterion.h"
 #include "spray/state/state.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@ sp_lack sp_patch_lack(const sp_evaluator *evaluator, const sp_coverage *coverage
         return SP_LACK_REACH;
     if (deposits->counted[patch] > 0)
         return SP_LACK_FLUX;
-    return deposits->speed_max[patch] < evaluator->setup.criterion.impact_speed ? SP_LACK_SPEED : SP_LACK_ANGLE;
+    return sp_is_fast_enough(&evaluator->setup.criterion, deposits->speed_max[patch]) ? SP_LACK_ANGLE : SP_LACK_SPEED;
 }
 
 typedef struct {

@@ -1,0 +1,30 @@
+/* What of all that meets a wall the criterion counts. */
+#ifndef SPRAY_CRITERION_H
+#define SPRAY_CRITERION_H
+
+#include <sprayplan/setup.h>
+#include <sprayplan/vector.h>
+
+#include <math.h>
+#include <stdbool.h>
+
+/* rad from the normal [unit], of what meets a wall with this velocity, `against` of it along the normal. Without loss
+ * of digits near it. */
+static inline double sp_incidence(sp_vec3 velocity, sp_vec3 normal, double against)
+{
+    return atan2(sp_length(sp_cross(velocity, normal)), against);
+}
+static inline bool sp_is_fast_enough(const sp_criterion *criterion, double speed)
+{
+    return speed >= criterion->impact_speed;
+}
+static inline bool sp_is_steep_enough(const sp_criterion *criterion, double incidence)
+{
+    return incidence <= criterion->incidence;
+}
+static inline bool sp_impact_passes(const sp_criterion *criterion, double speed, double incidence)
+{
+    return sp_is_fast_enough(criterion, speed) && sp_is_steep_enough(criterion, incidence);
+}
+
+#endif
