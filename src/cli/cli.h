@@ -218,7 +218,7 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
                const sp_layout *layout, char **written, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
-/* An object, which it takes, on standard output. False where memory ran out: what could not be written shows at the
+/* summary.c: an object, which it takes, on standard output. False where memory ran out: what could not be written shows at the
  * end. */
 bool cli_print_object(json_t *object, int digits);
 /* The result as JSON or as a table on standard output. */

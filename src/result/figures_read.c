@@ -1,9 +1,8 @@
 /* Figures back from a result.json, which may come from a stranger. */
 #include "figures.h"
-#include "growing_text.h"
+#include "json_read.h"
 #include "mesh/file.h"
 
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,227 +14,81 @@
 #define MEMORY 67108864.0         /* bytes, beyond ten times the file */
 #define MOST_LAYOUTS 1000
 
-/* Where in the file we are, for errors. */
-typedef struct {
-    const char *file;
-    sp_error *error;
-    char place[128]; /* "layouts[2].nozzles[0]." */
-} reader;
-
-static const char *kind_of(const json_t *value)
-{
-    switch (json_typeof(value)) {
-    case JSON_OBJECT:
-        return "an object";
-    case JSON_ARRAY:
-        return "a list";
-    case JSON_STRING:
-        return "a text";
-    case JSON_NULL:
-        return "null";
-    case JSON_TRUE:
-    case JSON_FALSE:
-        return "true or false";
-    default:
-        return "a number";
-    }
-}
-
-static bool wrong(const reader *in, const char *key, const json_t *found, const char *expected)
-{
-    if (!found)
-        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: missing, expected %s", in->place, key,
-                       expected);
-    if (json_is_number(found))
-        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: found %.17g, expected %s", in->place, key,
-                       json_number_value(found), expected);
-    return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: found %s, expected %s", in->place, key,
-                   kind_of(found), expected);
-}
-
-/* A number in [minimum, maximum] times `unit`; NAN where absent. */
-static bool get_real(const reader *in, const json_t *object, const char *key, double minimum, double maximum,
-                     double unit, double *value)
-{
-    const json_t *found = json_object_get(object, key);
-    *value = NAN;
-    if (!found)
-        return true;
-    char expected[80];
-    snprintf(expected, sizeof expected, "a number from %g to %g", minimum, maximum);
-    double number = json_is_number(found) ? json_number_value(found) : NAN;
-    if (!(number >= minimum && number <= maximum))
-        return wrong(in, key, found, expected);
-    *value = number * unit;
-    return true;
-}
-
-static bool get_count(const reader *in, const json_t *object, const char *key, size_t *value)
-{
-    const json_t *found = json_object_get(object, key);
-    *value = SP_UNKNOWN;
-    if (!found)
-        return true;
-    if (!json_is_integer(found) || json_integer_value(found) < 0)
-        return wrong(in, key, found, "a whole number, not negative");
-    *value = (size_t)json_integer_value(found);
-    return true;
-}
-
-/* False where absent. */
-static bool get_flag(const reader *in, const json_t *object, const char *key, bool *value)
-{
-    const json_t *found = json_object_get(object, key);
-    *value = found && json_is_true(found);
-    return !found || json_is_boolean(found) || wrong(in, key, found, "true or false");
-}
-
-/* Malloc'd; "" where absent. */
-static bool get_text(const reader *in, const json_t *object, const char *key, char **value)
-{
-    const json_t *found = json_object_get(object, key);
-    *value = NULL;
-    if (found && !json_is_string(found))
-        return wrong(in, key, found, "a text");
-    *value = sp_text_utf8(found ? json_string_value(found) : "");
-    return *value || sp_fail_memory(in->error);
-}
-
-static bool get_choice(const reader *in, const json_t *object, const char *key, const char *const choices[3],
-                       char value[16])
-{
-    const json_t *found = json_object_get(object, key);
-    const char *text = found && json_is_string(found) ? json_string_value(found) : NULL;
-    value[0] = 0;
-    if (!found)
-        return true;
-    for (int i = 0; text && i < 3 && choices[i]; i++)
-        if (strcmp(text, choices[i]) == 0) {
-            snprintf(value, 16, "%s", text);
-            return true;
-        }
-    char expected[64];
-    snprintf(expected, sizeof expected, choices[2] ? "\"%s\", \"%s\" or \"%s\"" : "\"%s\" or \"%s\"", choices[0],
-             choices[1], choices[2]);
-    return wrong(in, key, found, expected);
-}
-
-static bool get_vector(const reader *in, const json_t *object, const char *key, sp_vec3 *value)
-{
-    const json_t *found = json_object_get(object, key);
-    *value = sp_v(NAN, NAN, NAN);
-    if (!found)
-        return true;
-    if (!json_is_array(found) || json_array_size(found) != 3)
-        return wrong(in, key, found, "a list of three numbers");
-    double parts[3];
-    for (size_t i = 0; i < 3; ++i) {
-        const json_t *part = json_array_get(found, i);
-        parts[i] = json_is_number(part) ? json_number_value(part) : NAN;
-        if (!isfinite(parts[i]))
-            return wrong(in, key, part, "a list of three numbers");
-    }
-    *value = sp_v(parts[0], parts[1], parts[2]);
-    return true;
-}
-
-/* The list or object under `key`; absent is no error where it is not required. */
-static bool get_part(const reader *in, const json_t *object, const char *key, json_type type, bool required,
-                     const json_t **value)
-{
-    *value = json_object_get(object, key);
-    if (!*value ? !required : json_typeof(*value) == type)
-        return true;
-    return wrong(in, key, *value, type == JSON_ARRAY ? "a list" : "an object");
-}
-
-/* The reader for entry `i` of the list `key`, which must be an object. */
-static bool enter(const reader *in, const char *key, size_t i, const json_t *entry, reader *inner)
-{
-    *inner = *in;
-    size_t used = strlen(in->place);
-    snprintf(inner->place + used, sizeof inner->place - used, "%s[%zu]", key, i);
-    if (!json_is_object(entry))
-        return wrong(inner, "", entry, "an object");
-    used = strlen(inner->place);
-    snprintf(inner->place + used, sizeof inner->place - used, ".");
-    return true;
-}
-
-static bool read_missing(const reader *in, const json_t *geometry, sp_figures *figures)
+static bool read_missing(const sp_json_reader *in, const json_t *geometry, sp_figures *figures)
 {
     const json_t *missing;
-    if (!get_part(in, geometry, "unattainable_m2", JSON_OBJECT, false, &missing))
+    if (!sp_json_part(in, geometry, "unattainable_m2", JSON_OBJECT, false, &missing))
         return false;
-    reader inner = *in;
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "unattainable_m2.");
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *key = sp_reason_key(reason);
         figures->missing_area[reason] = NAN;
-        if (key && !get_real(&inner, missing, key, 0, LARGEST, 1, &figures->missing_area[reason]))
+        if (key && !sp_json_real(&inner, missing, key, 0, LARGEST, 1, &figures->missing_area[reason]))
             return false;
     }
     return true;
 }
 
-static bool read_missing_part(const reader *in, const json_t *entry, sp_missing_figures *missing)
+static bool read_missing_part(const sp_json_reader *in, const json_t *entry, sp_missing_figures *missing)
 {
-    if (!get_text(in, entry, "part", &missing->part) || !get_real(in, entry, "area_m2", 0, LARGEST, 1, &missing->area))
+    if (!sp_json_text(in, entry, "part", &missing->part) ||
+        !sp_json_real(in, entry, "area_m2", 0, LARGEST, 1, &missing->area))
         return false;
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *key = sp_reason_key(reason);
-        if (key && !get_real(in, entry, key, 0, LARGEST, 1, &missing->areas[reason]))
+        if (key && !sp_json_real(in, entry, key, 0, LARGEST, 1, &missing->areas[reason]))
             return false;
     }
     return true;
 }
 
-static bool read_missing_parts(const reader *in, const json_t *geometry, sp_figures *figures)
+static bool read_missing_parts(const sp_json_reader *in, const json_t *geometry, sp_figures *figures)
 {
     const json_t *parts;
-    if (!get_part(in, geometry, "unattainable_by_part", JSON_ARRAY, false, &parts))
+    if (!sp_json_part(in, geometry, "unattainable_by_part", JSON_ARRAY, false, &parts))
         return false;
     if (!sp_figures_make_missing(figures, json_array_size(parts)))
         return sp_fail_memory(in->error);
-    reader inner;
+    sp_json_reader inner;
     for (size_t i = 0; i < figures->missing_count; ++i)
-        if (!enter(in, "unattainable_by_part", i, json_array_get(parts, i), &inner) ||
+        if (!sp_json_enter(in, "unattainable_by_part", i, json_array_get(parts, i), &inner) ||
             !read_missing_part(&inner, json_array_get(parts, i), &figures->missing[i]))
             return false;
     return true;
 }
 
-static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *figures)
+static bool read_geometry(const sp_json_reader *in, const json_t *geometry, sp_figures *figures)
 {
-    return get_count(in, geometry, "triangles", &figures->triangles) &&
-           get_real(in, geometry, "area_m2", 0, LARGEST, 1, &figures->area) &&
-           get_real(in, geometry, "clean_area_m2", 0, LARGEST, 1, &figures->clean_area) &&
-           get_real(in, geometry, "attainable_area_m2", 0, LARGEST, 1, &figures->attainable_area) &&
+    return sp_json_count(in, geometry, "triangles", &figures->triangles) &&
+           sp_json_real(in, geometry, "area_m2", 0, LARGEST, 1, &figures->area) &&
+           sp_json_real(in, geometry, "clean_area_m2", 0, LARGEST, 1, &figures->clean_area) &&
+           sp_json_real(in, geometry, "attainable_area_m2", 0, LARGEST, 1, &figures->attainable_area) &&
            read_missing(in, geometry, figures) && read_missing_parts(in, geometry, figures);
 }
 
-static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *figures)
+static bool read_fidelity(const sp_json_reader *in, const json_t *fidelity, sp_figures *figures)
 {
     static const char *const trajectories[3] = {"line", "parabola", "drag"}, *const evaluators[3] = {"forward",
                                                                                                      "inverse"};
-    return get_choice(in, fidelity, "trajectory", trajectories, figures->trajectory) &&
-           get_choice(in, fidelity, "evaluator", evaluators, figures->evaluator) &&
-           get_count(in, fidelity, "reflections", &figures->reflections) &&
-           get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
-           get_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&
-           get_real(in, fidelity, "texel_m", 0, LARGEST, 1, &figures->texel) &&
-           get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
-           get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged) &&
-           get_real(in, fidelity, "error_bound", 0, 1, 1, &figures->error_bound);
+    return sp_json_choice(in, fidelity, "trajectory", trajectories, figures->trajectory) &&
+           sp_json_choice(in, fidelity, "evaluator", evaluators, figures->evaluator) &&
+           sp_json_count(in, fidelity, "reflections", &figures->reflections) &&
+           sp_json_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
+           sp_json_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&
+           sp_json_real(in, fidelity, "texel_m", 0, LARGEST, 1, &figures->texel) &&
+           sp_json_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
+           sp_json_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged) &&
+           sp_json_real(in, fidelity, "error_bound", 0, 1, 1, &figures->error_bound);
 }
 
 /* The layout's own errors; where it tells none, what its fidelity says stays. */
-static bool read_errors(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_errors(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     double estimate, misjudged, bound;
-    if (!get_real(in, layout, "error_estimate", 0, 1, 1, &estimate) ||
-        !get_real(in, layout, "misjudged", 0, 1, 1, &misjudged) ||
-        !get_real(in, layout, "error_bound", 0, 1, 1, &bound))
+    if (!sp_json_real(in, layout, "error_estimate", 0, 1, 1, &estimate) ||
+        !sp_json_real(in, layout, "misjudged", 0, 1, 1, &misjudged) ||
+        !sp_json_real(in, layout, "error_bound", 0, 1, 1, &bound))
         return false;
     figures->error_estimate = isnan(estimate) ? figures->error_estimate : estimate;
     figures->misjudged = isnan(misjudged) ? figures->misjudged : misjudged;
@@ -243,96 +96,96 @@ static bool read_errors(const reader *in, const json_t *layout, sp_figures *figu
     return true;
 }
 
-static bool read_coverage(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_coverage(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     const double l_min = 1 / 6e4;
     const json_t *flux;
-    if (!get_real(in, layout, "water_l_min", 0, LARGEST, l_min, &figures->flow) ||
-        !get_real(in, layout, "covered_area_m2", 0, LARGEST, 1, &figures->covered_area) ||
-        !get_real(in, layout, "coverage", 0, 1 + 1e-9, 1, &figures->coverage) ||
-        !get_real(in, layout, "borderline_m2", 0, LARGEST, 1, &figures->borderline) ||
-        !get_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
-        !get_real(in, layout, "area_per_water", 0, LARGEST, 6e4, &figures->area_per_water) ||
-        !get_real(in, layout, "pass_s", 0, LARGEST, 1, &figures->pass) ||
-        !get_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))
+    if (!sp_json_real(in, layout, "water_l_min", 0, LARGEST, l_min, &figures->flow) ||
+        !sp_json_real(in, layout, "covered_area_m2", 0, LARGEST, 1, &figures->covered_area) ||
+        !sp_json_real(in, layout, "coverage", 0, 1 + 1e-9, 1, &figures->coverage) ||
+        !sp_json_real(in, layout, "borderline_m2", 0, LARGEST, 1, &figures->borderline) ||
+        !sp_json_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
+        !sp_json_real(in, layout, "area_per_water", 0, LARGEST, 6e4, &figures->area_per_water) ||
+        !sp_json_real(in, layout, "pass_s", 0, LARGEST, 1, &figures->pass) ||
+        !sp_json_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))
         return false;
     if (isnan(figures->flow))
-        return wrong(in, "water_l_min", NULL, "a number");
+        return sp_json_wrong(in, "water_l_min", NULL, "a number");
     if (isnan(figures->coverage))
-        return wrong(in, "coverage", NULL, "a number from 0 to 1");
-    reader inner = *in;
+        return sp_json_wrong(in, "coverage", NULL, "a number from 0 to 1");
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "flux_l_min_m2.");
-    return get_real(&inner, flux, "min", 0, LARGEST, l_min, &figures->flux_min) &&
-           get_real(&inner, flux, "mean", 0, LARGEST, l_min, &figures->flux_mean) &&
-           get_real(&inner, flux, "p05", 0, LARGEST, l_min, &figures->flux_p05) &&
-           get_real(&inner, flux, "max", 0, LARGEST, l_min, &figures->flux_max);
+    return sp_json_real(&inner, flux, "min", 0, LARGEST, l_min, &figures->flux_min) &&
+           sp_json_real(&inner, flux, "mean", 0, LARGEST, l_min, &figures->flux_mean) &&
+           sp_json_real(&inner, flux, "p05", 0, LARGEST, l_min, &figures->flux_p05) &&
+           sp_json_real(&inner, flux, "max", 0, LARGEST, l_min, &figures->flux_max);
 }
 
-static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_liquid(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     const double l_min = 1 / 6e4;
     const json_t *liquid;
-    if (!get_part(in, layout, "liquid_l_min", JSON_OBJECT, false, &liquid))
+    if (!sp_json_part(in, layout, "liquid_l_min", JSON_OBJECT, false, &liquid))
         return false;
-    reader inner = *in;
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "liquid_l_min.");
-    return get_real(&inner, liquid, "on_clean_surface", 0, LARGEST, l_min, &figures->landed_clean) &&
-           get_real(&inner, liquid, "on_other_surface", 0, LARGEST, l_min, &figures->landed_other) &&
-           get_real(&inner, liquid, "left", 0, LARGEST, l_min, &figures->left) &&
-           get_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
+    return sp_json_real(&inner, liquid, "on_clean_surface", 0, LARGEST, l_min, &figures->landed_clean) &&
+           sp_json_real(&inner, liquid, "on_other_surface", 0, LARGEST, l_min, &figures->landed_other) &&
+           sp_json_real(&inner, liquid, "left", 0, LARGEST, l_min, &figures->left) &&
+           sp_json_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
 }
 
 /* What a total in money says of water. */
-static bool read_money(const reader *in, const json_t *price, double total, sp_water_cost *cost)
+static bool read_money(const sp_json_reader *in, const json_t *price, double total, sp_water_cost *cost)
 {
     double money;
     const json_t *currency = json_object_get(price, "currency");
     const char *letters = currency && json_is_string(currency) ? json_string_value(currency) : "";
-    if (!get_real(in, price, "money", 0, LARGEST, 1, &money))
+    if (!sp_json_real(in, price, "money", 0, LARGEST, 1, &money))
         return false;
     if (isnan(money))
         return true;
     if (strlen(letters) != 3 || strspn(letters, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 3)
-        return wrong(in, "currency", currency, "three capital letters");
+        return sp_json_wrong(in, "currency", currency, "three capital letters");
     *cost = (sp_water_cost){.money = total > 0 ? money / total : 0};
     strcpy(cost->currency, letters);
     return true;
 }
 
-static bool read_price(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_price(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     const json_t *price;
     figures->mount_cost = NAN;
-    if (!get_part(in, layout, "price", JSON_OBJECT, false, &price))
+    if (!sp_json_part(in, layout, "price", JSON_OBJECT, false, &price))
         return false;
     if (!price)
         return true;
-    reader inner = *in;
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "price.");
-    return get_real(&inner, price, "mounts_l_min", 0, LARGEST, 1 / 6e4, &figures->mount_cost) &&
+    return sp_json_real(&inner, price, "mounts_l_min", 0, LARGEST, 1 / 6e4, &figures->mount_cost) &&
            read_money(&inner, price, sp_figures_price(figures), &figures->water_cost);
 }
 
-static bool read_film(const reader *in, const json_t *layout, sp_film_balance *balance)
+static bool read_film(const sp_json_reader *in, const json_t *layout, sp_film_balance *balance)
 {
     const double l_min = 1 / 6e4;
     const json_t *film;
-    if (!get_part(in, layout, "film", JSON_OBJECT, false, &film))
+    if (!sp_json_part(in, layout, "film", JSON_OBJECT, false, &film))
         return false;
     if (!film)
         return true;
-    reader inner = *in;
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "film.");
     balance->known = true;
-    return get_real(&inner, film, "covered_area_m2", 0, LARGEST, 1, &balance->area) &&
-           get_real(&inner, film, "arriving_l_min", 0, LARGEST, l_min, &balance->arriving) &&
-           get_real(&inner, film, "left_l_min", 0, LARGEST, l_min, &balance->left) &&
-           get_real(&inner, film, "astray_l_min", 0, LARGEST, l_min, &balance->astray) &&
-           get_real(&inner, film, "held_l_min", 0, LARGEST, l_min, &balance->held) &&
-           get_real(&inner, film, "per_girth_l_min_m", 0, LARGEST, l_min, &balance->per_girth);
+    return sp_json_real(&inner, film, "covered_area_m2", 0, LARGEST, 1, &balance->area) &&
+           sp_json_real(&inner, film, "arriving_l_min", 0, LARGEST, l_min, &balance->arriving) &&
+           sp_json_real(&inner, film, "left_l_min", 0, LARGEST, l_min, &balance->left) &&
+           sp_json_real(&inner, film, "astray_l_min", 0, LARGEST, l_min, &balance->astray) &&
+           sp_json_real(&inner, film, "held_l_min", 0, LARGEST, l_min, &balance->held) &&
+           sp_json_real(&inner, film, "per_girth_l_min_m", 0, LARGEST, l_min, &balance->per_girth);
 }
 
-static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)
+static bool read_reason(const sp_json_reader *in, const json_t *entry, sp_reason *reason)
 {
     const json_t *found = json_object_get(entry, "reason");
     *reason = SP_REASON_UNKNOWN;
@@ -343,10 +196,11 @@ static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason
             *reason = i;
             return true;
         }
-    return wrong(in, "reason", found, "no_line_of_reach, reflection_only, too_slow, too_slanted or too_little_flux");
+    return sp_json_wrong(in, "reason", found,
+                         "no_line_of_reach, reflection_only, too_slow, too_slanted or too_little_flux");
 }
 
-static bool read_lack(const reader *in, const json_t *entry, sp_lack *lack)
+static bool read_lack(const sp_json_reader *in, const json_t *entry, sp_lack *lack)
 {
     const json_t *found = json_object_get(entry, "lack");
     *lack = SP_LACK_NOTHING;
@@ -357,145 +211,147 @@ static bool read_lack(const reader *in, const json_t *entry, sp_lack *lack)
             *lack = i;
             return true;
         }
-    return wrong(in, "lack", found, "no_nozzle_in_reach, too_slow, too_slanted or too_little_flux");
+    return sp_json_wrong(in, "lack", found, "no_nozzle_in_reach, too_slow, too_slanted or too_little_flux");
 }
 
-static bool read_remedy(const reader *in, const json_t *entry, sp_remedy_figures *remedy)
+static bool read_remedy(const sp_json_reader *in, const json_t *entry, sp_remedy_figures *remedy)
 {
     const json_t *found;
-    reader inner = *in;
-    if (!get_part(in, entry, "remedy", JSON_OBJECT, false, &found))
+    sp_json_reader inner = *in;
+    if (!sp_json_part(in, entry, "remedy", JSON_OBJECT, false, &found))
         return false;
     remedy->known = found;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "remedy.");
-    return get_text(&inner, found, "type", &remedy->type) && get_text(&inner, found, "port", &remedy->port) &&
-           get_vector(&inner, found, "position_m", &remedy->position) &&
-           get_real(&inner, found, "covers_m2", 0, LARGEST, 1, &remedy->area) &&
-           get_real(&inner, found, "water_l_min", 0, LARGEST, 1 / 6e4, &remedy->flow);
+    return sp_json_text(&inner, found, "type", &remedy->type) && sp_json_text(&inner, found, "port", &remedy->port) &&
+           sp_json_vector(&inner, found, "position_m", &remedy->position) &&
+           sp_json_real(&inner, found, "covers_m2", 0, LARGEST, 1, &remedy->area) &&
+           sp_json_real(&inner, found, "water_l_min", 0, LARGEST, 1 / 6e4, &remedy->flow);
 }
 
-static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures *shadow)
+static bool read_shadow(const sp_json_reader *in, const json_t *entry, sp_shadow_figures *shadow)
 {
     const json_t *reachable = json_object_get(entry, "reachable");
     if (reachable && !json_is_boolean(reachable))
-        return wrong(in, "reachable", reachable, "true or false");
+        return sp_json_wrong(in, "reachable", reachable, "true or false");
     shadow->reachable = reachable ? json_is_true(reachable) : -1;
     return read_reason(in, entry, &shadow->reason) && read_lack(in, entry, &shadow->lack) &&
-           get_text(in, entry, "nozzle", &shadow->nozzle) &&
-           get_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
-           get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part) &&
-           read_remedy(in, entry, &shadow->remedy);
+           sp_json_text(in, entry, "nozzle", &shadow->nozzle) &&
+           sp_json_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
+           sp_json_vector(in, entry, "centroid_m", &shadow->centroid) &&
+           sp_json_text(in, entry, "part", &shadow->part) && read_remedy(in, entry, &shadow->remedy);
 }
 
 /* A page will link it. */
-static bool get_url(const reader *in, const json_t *object, const char *key, char **value)
+static bool get_url(const sp_json_reader *in, const json_t *object, const char *key, char **value)
 {
-    return get_text(in, object, key, value) &&
+    return sp_json_text(in, object, key, value) &&
            (!(*value)[0] || sp_is_url(*value) ||
-            wrong(in, key, json_object_get(object, key), "an http or https address"));
+            sp_json_wrong(in, key, json_object_get(object, key), "an http or https address"));
 }
 
-static bool read_tracks(const reader *in, const json_t *entry, sp_track_gaps *gaps)
+static bool read_tracks(const sp_json_reader *in, const json_t *entry, sp_track_gaps *gaps)
 {
     const json_t *tracks;
-    if (!get_part(in, entry, "tracks", JSON_OBJECT, false, &tracks))
+    if (!sp_json_part(in, entry, "tracks", JSON_OBJECT, false, &tracks))
         return false;
     if (!tracks)
         return true;
-    reader inner = *in;
+    sp_json_reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "tracks.");
     gaps->known = true;
-    return get_count(&inner, tracks, "turns", &gaps->turns) &&
-           get_real(&inner, tracks, "seconds", 0, LARGEST, 1, &gaps->duration) &&
-           get_real(&inner, tracks, "reached_m2", 0, LARGEST, 1, &gaps->area) &&
-           get_real(&inner, tracks, "mean_gap_m", 0, LARGEST, 1, &gaps->mean) &&
-           get_real(&inner, tracks, "p95_gap_m", 0, LARGEST, 1, &gaps->p95) &&
-           get_real(&inner, tracks, "greatest_gap_m", 0, LARGEST, 1, &gaps->greatest);
+    return sp_json_count(&inner, tracks, "turns", &gaps->turns) &&
+           sp_json_real(&inner, tracks, "seconds", 0, LARGEST, 1, &gaps->duration) &&
+           sp_json_real(&inner, tracks, "reached_m2", 0, LARGEST, 1, &gaps->area) &&
+           sp_json_real(&inner, tracks, "mean_gap_m", 0, LARGEST, 1, &gaps->mean) &&
+           sp_json_real(&inner, tracks, "p95_gap_m", 0, LARGEST, 1, &gaps->p95) &&
+           sp_json_real(&inner, tracks, "greatest_gap_m", 0, LARGEST, 1, &gaps->greatest);
 }
 
-static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures *nozzle)
+static bool read_nozzle(const sp_json_reader *in, const json_t *entry, sp_nozzle_figures *nozzle)
 {
-    return get_text(in, entry, "name", &nozzle->name) && get_text(in, entry, "type", &nozzle->type) &&
-           get_text(in, entry, "order_code", &nozzle->order_code) && get_url(in, entry, "url", &nozzle->url) &&
-           get_vector(in, entry, "position_m", &nozzle->position) && get_vector(in, entry, "axis", &nozzle->axis) &&
-           get_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&
-           get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
-           get_real(in, entry, "pressure_pa", 0, LARGEST, 1, &nozzle->pressure) &&
-           get_real(in, entry, "flow_l_min", 0, LARGEST, 1 / 6e4, &nozzle->flow) &&
-           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) &&
-           get_real(in, entry, "alone_m2", 0, LARGEST, 1, &nozzle->alone) &&
-           get_real(in, entry, "lost_without_m2", -LARGEST, LARGEST, 1, &nozzle->lost) &&
-           get_flag(in, entry, "new_fitting", &nozzle->fitting) &&
-           get_real(in, entry, "cost_l_min", 0, LARGEST, 1 / 6e4, &nozzle->cost) &&
+    return sp_json_text(in, entry, "name", &nozzle->name) && sp_json_text(in, entry, "type", &nozzle->type) &&
+           sp_json_text(in, entry, "order_code", &nozzle->order_code) && get_url(in, entry, "url", &nozzle->url) &&
+           sp_json_vector(in, entry, "position_m", &nozzle->position) &&
+           sp_json_vector(in, entry, "axis", &nozzle->axis) &&
+           sp_json_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&
+           sp_json_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
+           sp_json_real(in, entry, "pressure_pa", 0, LARGEST, 1, &nozzle->pressure) &&
+           sp_json_real(in, entry, "flow_l_min", 0, LARGEST, 1 / 6e4, &nozzle->flow) &&
+           sp_json_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) &&
+           sp_json_real(in, entry, "alone_m2", 0, LARGEST, 1, &nozzle->alone) &&
+           sp_json_real(in, entry, "lost_without_m2", -LARGEST, LARGEST, 1, &nozzle->lost) &&
+           sp_json_flag(in, entry, "new_fitting", &nozzle->fitting) &&
+           sp_json_real(in, entry, "cost_l_min", 0, LARGEST, 1 / 6e4, &nozzle->cost) &&
            read_tracks(in, entry, &nozzle->tracks);
 }
 
-static bool read_part(const reader *in, const json_t *entry, sp_part_figures *part)
+static bool read_part(const sp_json_reader *in, const json_t *entry, sp_part_figures *part)
 {
-    return get_text(in, entry, "part", &part->part) && get_real(in, entry, "area_m2", 0, LARGEST, 1, &part->area) &&
-           get_real(in, entry, "covered_area_m2", 0, LARGEST, 1, &part->covered);
+    return sp_json_text(in, entry, "part", &part->part) &&
+           sp_json_real(in, entry, "area_m2", 0, LARGEST, 1, &part->area) &&
+           sp_json_real(in, entry, "covered_area_m2", 0, LARGEST, 1, &part->covered);
 }
 
-static bool read_parts(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_parts(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     const json_t *parts;
-    if (!get_part(in, layout, "parts", JSON_ARRAY, false, &parts))
+    if (!sp_json_part(in, layout, "parts", JSON_ARRAY, false, &parts))
         return false;
     if (!sp_figures_make_parts(figures, json_array_size(parts)))
         return sp_fail_memory(in->error);
-    reader inner;
+    sp_json_reader inner;
     for (size_t i = 0; i < figures->part_count; ++i)
-        if (!enter(in, "parts", i, json_array_get(parts, i), &inner) ||
+        if (!sp_json_enter(in, "parts", i, json_array_get(parts, i), &inner) ||
             !read_part(&inner, json_array_get(parts, i), &figures->parts[i]))
             return false;
     return true;
 }
 
-static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)
+static bool read_rows(const sp_json_reader *in, const json_t *layout, sp_figures *figures)
 {
     const json_t *shadows, *nozzles;
-    if (!read_parts(in, layout, figures) || !get_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
-        !get_part(in, layout, "nozzles", JSON_ARRAY, true, &nozzles))
+    if (!read_parts(in, layout, figures) || !sp_json_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
+        !sp_json_part(in, layout, "nozzles", JSON_ARRAY, true, &nozzles))
         return false;
     size_t shadow_count = json_array_size(shadows), nozzle_count = json_array_size(nozzles);
     shadow_count = shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT;
     if (!sp_figures_make_rows(figures, shadow_count, nozzle_count))
         return sp_fail_memory(in->error);
-    reader inner;
+    sp_json_reader inner;
     for (size_t i = 0; i < shadow_count; ++i)
-        if (!enter(in, "shadows", i, json_array_get(shadows, i), &inner) ||
+        if (!sp_json_enter(in, "shadows", i, json_array_get(shadows, i), &inner) ||
             !read_shadow(&inner, json_array_get(shadows, i), &figures->shadows[i]))
             return false;
     for (size_t i = 0; i < nozzle_count; ++i)
-        if (!enter(in, "nozzles", i, json_array_get(nozzles, i), &inner) ||
+        if (!sp_json_enter(in, "nozzles", i, json_array_get(nozzles, i), &inner) ||
             !read_nozzle(&inner, json_array_get(nozzles, i), &figures->nozzles[i]))
             return false;
     return true;
 }
 
-static bool read_layout(const reader *in, const json_t *root, const json_t *layout, sp_figures *figures)
+static bool read_layout(const sp_json_reader *in, const json_t *root, const json_t *layout, sp_figures *figures)
 {
-    const reader top = {in->file, in->error, ""};
+    const sp_json_reader top = {in->file, in->error, ""};
     const json_t *geometry, *fidelity;
     bool own_geometry = json_object_get(layout, "geometry"), own_fidelity = json_object_get(layout, "fidelity");
-    reader inner = own_geometry ? *in : top;
-    if (!get_part(&inner, own_geometry ? layout : root, "geometry", JSON_OBJECT, false, &geometry))
+    sp_json_reader inner = own_geometry ? *in : top;
+    if (!sp_json_part(&inner, own_geometry ? layout : root, "geometry", JSON_OBJECT, false, &geometry))
         return false;
     size_t used = strlen(inner.place);
     snprintf(inner.place + used, sizeof inner.place - used, "geometry.");
     if (!read_geometry(&inner, geometry, figures))
         return false;
     inner = own_fidelity ? *in : top;
-    if (!get_part(&inner, own_fidelity ? layout : root, "fidelity", JSON_OBJECT, false, &fidelity))
+    if (!sp_json_part(&inner, own_fidelity ? layout : root, "fidelity", JSON_OBJECT, false, &fidelity))
         return false;
     used = strlen(inner.place);
     snprintf(inner.place + used, sizeof inner.place - used, "fidelity.");
-    if (!read_fidelity(&inner, fidelity, figures) || !get_text(in, layout, "name", &figures->name))
+    if (!read_fidelity(&inner, fidelity, figures) || !sp_json_text(in, layout, "name", &figures->name))
         return false;
     if (!figures->name[0])
-        return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
+        return sp_json_wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
     return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
-           read_film(in, layout, &figures->film) && get_count(in, layout, "new_fittings", &figures->fittings) &&
+           read_film(in, layout, &figures->film) && sp_json_count(in, layout, "new_fittings", &figures->fittings) &&
            read_price(in, layout, figures) && read_rows(in, layout, figures);
 }
 
@@ -522,14 +378,15 @@ static json_t *parse(const char *path, const char *text, size_t size, sp_error *
     return root;
 }
 
-static sp_figures *read_all(const reader *in, const json_t *root, size_t *count)
+static sp_figures *read_all(const sp_json_reader *in, const json_t *root, size_t *count)
 {
     const json_t *layouts;
     if (!json_is_object(root))
-        return wrong(in, "top", root, "an object"), NULL;
+        return sp_json_wrong(in, "top", root, "an object"), NULL;
     if (!json_is_string(json_object_get(root, "sprayplan")))
-        return wrong(in, "sprayplan", json_object_get(root, "sprayplan"), "a text: the version that wrote it"), NULL;
-    if (!get_part(in, root, "layouts", JSON_ARRAY, true, &layouts))
+        return sp_json_wrong(in, "sprayplan", json_object_get(root, "sprayplan"), "a text: the version that wrote it"),
+               NULL;
+    if (!sp_json_part(in, root, "layouts", JSON_ARRAY, true, &layouts))
         return NULL;
     size_t found = json_array_size(layouts);
     if (found < 1 || found > MOST_LAYOUTS) {
@@ -540,9 +397,9 @@ static sp_figures *read_all(const reader *in, const json_t *root, size_t *count)
     sp_figures *figures = calloc(found, sizeof *figures);
     if (!figures)
         return sp_fail_memory(in->error);
-    reader inner;
+    sp_json_reader inner;
     for (size_t i = 0; i < found; ++i)
-        if (!enter(in, "layouts", i, json_array_get(layouts, i), &inner) ||
+        if (!sp_json_enter(in, "layouts", i, json_array_get(layouts, i), &inner) ||
             !read_layout(&inner, root, json_array_get(layouts, i), &figures[i])) {
             sp_figures_destroy(figures, found);
             return NULL;
@@ -557,7 +414,7 @@ sp_figures *sp_figures_parse(const char *path, const char *text, size_t size, si
     json_t *root = parse(path, text, size, error);
     if (!root)
         return NULL;
-    const reader in = {path, error, ""};
+    const sp_json_reader in = {path, error, ""};
     sp_figures *figures = read_all(&in, root, count);
     json_decref(root);
     return figures;
