@@ -190,9 +190,9 @@ static bool list_items(sp_tuples *o, const remaining *left, sp_error *error)
 {
     const sp_candidate_list *list = o->list;
     for (size_t i = 0; i < left->count; i++) {
-        size_t position = left->position[i], kind = sp_candidate_list_kind(list, position);
         if (!left->alive[i])
             continue;
+        size_t position = left->position[i], kind = sp_candidate_list_kind(list, position);
         if (!sp_grow(&o->items, &o->capacity, o->count + 1, sizeof *o->items))
             return sp_fail_memory(error);
         sp_tuple_item *own = &o->items[o->count++];

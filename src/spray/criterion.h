@@ -1,4 +1,4 @@
-/* What of all that meets a wall the criterion counts. */
+/* What of all that meets a wall the criterion counts, by its speed and incidence. */
 #ifndef SPRAY_CRITERION_H
 #define SPRAY_CRITERION_H
 
@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* rad from the normal [unit], of what meets a wall with this velocity, `against` of it along the normal. Without loss
- * of digits near it. */
+/* rad from the unit normal, of what meets a wall with this velocity (m/s), of which `against`, no less than 0, is along
+ * the normal. A cosine would lose digits near it. */
 static inline double sp_incidence(sp_vec3 velocity, sp_vec3 normal, double against)
 {
     return atan2(sp_length(sp_cross(velocity, normal)), against);

@@ -93,8 +93,12 @@ static extent extent_of(const sp_source *source, const sp_aim *aim)
     size_t patches = source->evaluator->patches.count, end = aim->end < patches ? aim->end : patches;
     size_t count = aim->first < end ? end - aim->first : 0;
     size_t chunks = CHUNKS * (size_t)sp_thread_count(source->evaluator->setup.run.threads), chunk = count / chunks + 1;
-    chunk = chunk < CHUNK_LEAST ? CHUNK_LEAST : chunk < CHUNK_MOST ? chunk : CHUNK_MOST;
-    chunk = source->fronts ? CHUNK_DRAG : chunk;
+    if (source->fronts)
+        chunk = CHUNK_DRAG;
+    else if (chunk < CHUNK_LEAST)
+        chunk = CHUNK_LEAST;
+    else if (chunk > CHUNK_MOST)
+        chunk = CHUNK_MOST;
     return (extent){aim->first, count, chunk, (count + chunk - 1) / chunk};
 }
 
