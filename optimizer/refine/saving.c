@@ -59,7 +59,7 @@ static bool insist(sp_refining *refining, sp_partial *partial, double budget, co
 
 /* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether
  * the best layout got better. */
-static bool save_share(sp_refining *refining, double share, bool *saved)
+static bool save_share(sp_refining *refining, sp_pool_gains *gains, double share, bool *saved)
 {
     sp_front *front = refining->front;
     sp_front_point before = front->measured;
@@ -67,8 +67,8 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
     sp_partial reduced;
     bool found;
     *saved = false;
-    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias,
-                   refining->deadline, &reduced, &found, refining->error))
+    if (!sp_reduce(refining->search, gains, &front->best, budget, front->target - front->bias, refining->deadline,
+                   &reduced, &found, refining->error))
         return false;
     if (!found)
         return true;
@@ -82,13 +82,17 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
 bool sp_save_water(sp_refining *refining)
 {
     static const double shares[] = {0.06, 0.03};
-    for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
+    sp_pool_gains gains;
+    bool done = sp_pool_gains_create(refining->search, refining->pool, &gains, refining->error);
+    if (!done)
+        return false;
+    for (size_t i = 0; done && i < sizeof shares / sizeof *shares;) {
         bool saved = false;
         if (!refining->front->best.count || !sp_deadline_goes_on(refining->deadline, "refine", 0))
-            return true;
-        if (!save_share(refining, shares[i], &saved))
-            return false;
+            break;
+        done = save_share(refining, &gains, shares[i], &saved);
         i += !saved;
     }
-    return true;
+    sp_pool_gains_free(&gains);
+    return done;
 }

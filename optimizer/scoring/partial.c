@@ -52,6 +52,41 @@ void sp_partial_refresh(const sp_search *search, sp_partial *partial)
     count_up(search, partial);
 }
 
+/* The same of one patch. */
+static void refresh_patch(const sp_search *search, sp_partial *partial, size_t p)
+{
+    partial->hit[p] = search->kept_hit[p];
+    partial->dry[p] = search->kept_dry[p];
+    if (partial->film)
+        partial->film[p] = search->kept_film[p];
+    for (size_t i = 0; i < partial->count; i++) {
+        const float *field = partial->items[i].field;
+        sp_pour(search, field[p], &partial->hit[p], &partial->dry[p]);
+        if (partial->film)
+            partial->film[p] += field[search->patch_count + p];
+    }
+}
+
+/* The same after this nozzle was taken out: what it brings nothing to is as before. Footprints say more of a patch than
+ * fields do. */
+static void refresh_without(const sp_search *search, sp_partial *partial, const sp_placed *taken)
+{
+    const float *film = partial->film ? taken->field + search->patch_count : NULL;
+    if (search->footprints) {
+        sp_partial_refresh(search, partial);
+        return;
+    }
+    for (size_t p = 0; p < search->patch_count; p++)
+        if (taken->field[p] != 0 || (film && film[p] != 0))
+            refresh_patch(search, partial, p);
+    partial->flow = partial->outlay = search->kept_flow;
+    for (size_t i = 0; i < partial->count; i++) {
+        partial->flow += partial->items[i].flow;
+        partial->outlay += sp_placed_outlay(search, &partial->items[i]);
+    }
+    count_up(search, partial);
+}
+
 /* Room for what hits, runs and is dry. */
 static bool reserve(const sp_search *search, sp_partial *partial, sp_error *error)
 {
@@ -148,7 +183,7 @@ sp_placed sp_partial_take(const sp_search *search, sp_partial *partial, size_t i
     sp_placed taken = partial->items[i];
     partial->count--;
     memmove(&partial->items[i], &partial->items[i + 1], (partial->count - i) * sizeof *partial->items);
-    sp_partial_refresh(search, partial);
+    refresh_without(search, partial, &taken);
     return taken;
 }
 
@@ -176,6 +211,13 @@ double sp_partial_costs(const sp_search *search, const sp_partial *partial)
 double sp_partial_water(const sp_search *search, const sp_partial *partial, double budget)
 {
     return search->costly ? fmin(budget - sp_partial_costs(search, partial), search->options->max_water) : budget;
+}
+
+bool sp_partial_affords(const sp_search *search, const sp_partial *partial, uint32_t mount, size_t variant,
+                        double budget)
+{
+    return sp_affords(search, partial->flow, partial->outlay, mount, search->candidates->variants[variant].flow,
+                      budget);
 }
 
 bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount)

@@ -58,6 +58,9 @@ static inline double sp_placed_outlay(const sp_search *search, const sp_placed *
  * `budget`. */
 double sp_partial_costs(const sp_search *search, const sp_partial *partial);
 double sp_partial_water(const sp_search *search, const sp_partial *partial, double budget);
+/* True where one more nozzle of this variant fits within an outlay of `budget`, and within max_water. */
+bool sp_partial_affords(const sp_search *search, const sp_partial *partial, uint32_t mount, size_t variant,
+                        double budget);
 /* True where the partial layout may take one more nozzle at the site: number and ports, not water. */
 bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount);
 /* Named nozzles, the kept ones first. */

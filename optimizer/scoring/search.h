@@ -64,6 +64,12 @@ static inline double sp_outlay_at(const sp_search *search, uint32_t mount, doubl
 {
     return flow + search->options->mounts[mount].cost;
 }
+/* That of a pose to a power, by which merits count. */
+static inline double sp_merit_price(const sp_search *search, const sp_pose *pose, double power)
+{
+    uint32_t mount = search->sites->items[pose->site].mount;
+    return pow(sp_outlay_at(search, mount, search->candidates->variants[pose->variant].flow), power);
+}
 /* True where one more nozzle of this flow fits within an outlay of `budget`, and within max_water. */
 static inline bool sp_affords(const sp_search *search, double flow, double outlay, uint32_t mount, double more,
                               double budget)

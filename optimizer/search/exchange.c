@@ -7,8 +7,8 @@
 #define OUTLAY_STEP 0.02 /* share of the outlay that a reduction must save */
 
 /* Replaces item i where the pool holds something better for its place. The item then stands last. */
-static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_partial *partial,
-                    size_t i, bool *changed, sp_error *error)
+static bool replace(const sp_search *search, sp_pool_gains *gains, double budget, sp_partial *partial, size_t i,
+                    bool *changed, sp_error *error)
 {
     double before = partial->value;
     sp_placed own = sp_partial_take(search, partial, i);
@@ -16,7 +16,7 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
     double least = sp_field_gain(search, partial, own.field) + step;
     double gain;
     sp_pose pose;
-    if (!sp_pool_best(search, pool, partial, 0, budget, least, bench, &pose, &gain, error)) {
+    if (!sp_pool_best(search, gains, partial, 0, budget, &pose, &gain, error)) {
         free(own.field);
         return false;
     }
@@ -36,34 +36,30 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
     return true;
 }
 
-static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_deadline *deadline,
+static bool sweep(const sp_search *search, sp_pool_gains *gains, double budget, sp_deadline *deadline,
                   sp_partial *partial, sp_error *error)
 {
     bool done = true, changed = true;
     sp_partial_refresh(search, partial);
     for (int i = 0; done && changed && i < SWEEPS_MOST && sp_deadline_goes_on(deadline, "exchange", 0); i++) {
         changed = false;
-        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, partial, error);
+        done = sp_greedy_pool(search, gains, 1, INFINITY, budget, partial, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
         for (size_t k = 0; done && k < partial->count; k++)
-            done = replace(search, pool, budget, bench, partial, 0, &changed, error);
+            done = replace(search, gains, budget, partial, 0, &changed, error);
     }
     return done;
 }
 
-bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_deadline *deadline, sp_partial *partial,
-                sp_error *error)
+bool sp_improve(const sp_search *search, sp_pool_gains *gains, double budget, sp_deadline *deadline,
+                sp_partial *partial, sp_error *error)
 {
-    sp_bench bench;
-    if (!sp_bench_create(search, pool, &bench, error))
-        return false;
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, pool, budget, &bench, deadline, partial, error) &&
-                sweep(&exact, pool, budget, &bench, deadline, partial, error);
+    bool done = sweep(search, gains, budget, deadline, partial, error) &&
+                sweep(&exact, gains, budget, deadline, partial, error);
     sp_partial_refresh(search, partial);
-    sp_bench_free(&bench);
     return done;
 }
 
@@ -99,7 +95,7 @@ static size_t *by_loss(const sp_search *search, const sp_partial *partial, sp_er
     return order;
 }
 
-bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double budget, double enough,
+bool sp_reduce(const sp_search *search, sp_pool_gains *gains, const sp_partial *partial, double budget, double enough,
                sp_deadline *deadline, sp_partial *reduced, bool *found, sp_error *error)
 {
     *found = false;
@@ -116,7 +112,7 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_partial *p
         /* one nozzle may not be enough to leave out: then the smallest remaining follow */
         while (trial.count && trial.outlay > budget)
             sp_partial_remove(search, &trial, trial.count - 1);
-        done = sp_improve(search, pool, budget, deadline, &trial, error);
+        done = sp_improve(search, gains, budget, deadline, &trial, error);
         if (done && trial.outlay <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
             if (*found)
                 sp_partial_free(reduced);
@@ -134,7 +130,7 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_partial *p
     return done;
 }
 
-bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_deadline *deadline, sp_partial *partial,
+bool sp_shrink(const sp_search *search, sp_pool_gains *gains, double target, sp_deadline *deadline, sp_partial *partial,
                sp_error *error)
 {
     for (;;) {
@@ -142,7 +138,7 @@ bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_d
         bool found;
         if (partial->count == 0 || !sp_deadline_goes_on(deadline, "exchange", 0))
             return true;
-        if (!sp_reduce(search, pool, partial, partial->outlay * (1 - OUTLAY_STEP), target, deadline, &reduced, &found,
+        if (!sp_reduce(search, gains, partial, partial->outlay * (1 - OUTLAY_STEP), target, deadline, &reduced, &found,
                        error))
             return false;
         if (!found || reduced.covered < target) {

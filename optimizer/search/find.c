@@ -19,6 +19,7 @@ typedef struct {
     sp_deadline *deadline;
     sp_front *front;
     sp_pool *pool;
+    sp_pool_gains *gains; /* NULL: the pool is not yet filled */
     sp_error *error;
     double target; /* m² on the final patches; INFINITY: as much as possible */
     double budget; /* m³/s of outlay */
@@ -47,18 +48,13 @@ static bool first_partial(const sp_finding *finding, double enough, sp_partial *
 static bool other_partial(const sp_finding *finding, double power)
 {
     sp_partial partial;
-    sp_bench bench;
     if (!sp_partial_create(finding->search, &partial, finding->error))
         return false;
     double coarse = finding->target - finding->front->bias;
-    bool done = sp_bench_create(finding->search, finding->pool, &bench, finding->error);
-    if (done) {
-        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &partial,
-                              finding->error);
-        sp_bench_free(&bench);
-    }
+    bool done =
+        sp_greedy_pool(finding->search, finding->gains, power, coarse, finding->budget, &partial, finding->error);
     double budget = partial.covered >= coarse ? partial.outlay * (1 + SP_ROUNDING) : finding->budget;
-    done = done && sp_improve(finding->search, finding->pool, budget, finding->deadline, &partial, finding->error) &&
+    done = done && sp_improve(finding->search, finding->gains, budget, finding->deadline, &partial, finding->error) &&
            sp_front_measure(finding->front, finding->search, &partial, NULL, finding->error);
     sp_partial_free(&partial);
     return done;
@@ -77,7 +73,7 @@ static bool shrink_best(const sp_finding *finding)
         double target = before.area < finding->target ? before.area : finding->target;
         /* each round asks the coarse patches for a little more than the last one's miss */
         double coarse = target - front->bias + 0.001 * round * target;
-        done = sp_shrink(finding->search, finding->pool, coarse, finding->deadline, &partial, finding->error);
+        done = sp_shrink(finding->search, finding->gains, coarse, finding->deadline, &partial, finding->error);
         bool shrunk = done && partial.outlay < before.outlay;
         if (shrunk)
             done = sp_front_measure(front, finding->search, &partial, &point, finding->error);
@@ -110,7 +106,7 @@ static bool start_at(const sp_finding *finding, const sp_partial *greedy, const 
         sp_partial partial;
         if (!start_from(finding, greedy, enumerated, budget, i, &partial))
             return false;
-        bool done = sp_improve(finding->search, finding->pool, budget, finding->deadline, &partial, finding->error);
+        bool done = sp_improve(finding->search, finding->gains, budget, finding->deadline, &partial, finding->error);
         bool better = done && sp_covers_more(finding->search, &partial, best);
         sp_partial_free(better ? best : &partial);
         if (better)
@@ -333,12 +329,19 @@ bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *fron
                   const sp_partial *first, sp_error *error)
 {
     sp_finding finding = finding_of(search, deadline, front, pool, error);
-    bool done = true;
+    sp_pool_gains gains;
     if (!sp_deadline_goes_on(deadline, "exchange", 0))
         return true;
+    bool done = sp_pool_gains_create(search, pool, &gains, error);
+    if (!done)
+        return false;
+    finding.gains = &gains;
     for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
         done = other_partial(&finding, i == 0 ? 0.5 : 0);
-    return done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
-           fill_front(&finding, first) && sp_find_fewest(search, pool, first, finding.budget, deadline, front, error) &&
+    done = done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
+           fill_front(&finding, first) &&
+           sp_find_fewest(search, &gains, first, finding.budget, deadline, front, error) &&
            sp_deadline_stage(deadline, "front", error);
+    sp_pool_gains_free(&gains);
+    return done;
 }

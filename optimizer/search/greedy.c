@@ -1,6 +1,5 @@
 #include "search/greedy.h"
 
-#include "mesh/grow.h"
 #include "ranking/ranking.h"
 #include "ranks/gather.h"
 
@@ -10,43 +9,6 @@
 
 #define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
 #define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
-
-bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error)
-{
-    if (!sp_grow(&pool->items, &pool->capacity, pool->count + 1, sizeof *pool->items))
-        return sp_fail_memory(error);
-    pool->items[pool->count++] = pose;
-    return true;
-}
-
-static int compare_poses(const void *a, const void *b)
-{
-    const sp_pose *p = a, *q = b;
-    const uint32_t left[4] = {p->site, p->variant, p->axis, p->roll},
-                   right[4] = {q->site, q->variant, q->axis, q->roll};
-    for (int i = 0; i < 4; i++)
-        if (left[i] != right[i])
-            return left[i] < right[i] ? -1 : 1;
-    return 0;
-}
-
-void sp_pool_settle(sp_pool *pool)
-{
-    if (!pool->count)
-        return;
-    qsort(pool->items, pool->count, sizeof *pool->items, compare_poses);
-    size_t kept = 1;
-    for (size_t i = 1; i < pool->count; i++)
-        if (compare_poses(&pool->items[i], &pool->items[kept - 1]))
-            pool->items[kept++] = pool->items[i];
-    pool->count = kept;
-}
-
-void sp_pool_free(sp_pool *pool)
-{
-    free(pool->items);
-    *pool = (sp_pool){0};
-}
 
 /* The best pose of one mounting point and variant in this round. */
 typedef struct {
@@ -133,18 +95,6 @@ static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
     rise->count = kept + 1;
 }
 
-static double price_of(const sp_search *search, const sp_pose *pose, double power)
-{
-    uint32_t mount = search->sites->items[pose->site].mount;
-    return pow(sp_outlay_at(search, mount, search->candidates->variants[pose->variant].flow), power);
-}
-
-static bool affords(const sp_search *search, const sp_partial *partial, uint32_t mount, size_t variant, double budget)
-{
-    return sp_affords(search, partial->flow, partial->outlay, mount, search->candidates->variants[variant].flow,
-                      budget);
-}
-
 /* Scores one site's poses of a variant but those that cannot beat `least`, a merit that some pose of this round has.
  * The sweeper takes the variant where that is needed. */
 static void scan_variant(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t variant, size_t number, double least)
@@ -185,7 +135,7 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *
         sp_sweeper_look(sweeper, rounds->search, partial, site, s);
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
-            if (variant->launch == s && affords(rounds->search, partial, mount, k, rounds->budget))
+            if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget))
                 scan_variant(rounds, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
@@ -211,12 +161,12 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
         if (best->merit <= 0 || !sp_ranks_mine(ranks_of(rounds), best->pose.site))
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
-        if (!affords(search, partial, mount, best->pose.variant, rounds->budget) ||
+        if (!sp_partial_affords(search, partial, mount, best->pose.variant, rounds->budget) ||
             !sp_partial_has_place(search, partial, mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
         double gain = sp_score_pose(sweeper, search, partial, best->pose, 0).gain;
-        least = fmax(least, gain / price_of(search, &best->pose, rounds->power));
+        least = fmax(least, gain / sp_merit_price(search, &best->pose, rounds->power));
     }
     return least;
 }
@@ -284,7 +234,8 @@ static const sp_round_best *round_best(const sp_rounds *rounds)
         most = fmax(most, rounds->best[i].merit);
     for (size_t i = 0; most > 0 && i < count; i++) {
         const sp_round_best *best = &rounds->best[i];
-        if (best->merit > 0 && best->gain + rounds->tie >= most * price_of(rounds->search, &best->pose, rounds->power))
+        if (best->merit > 0 &&
+            best->gain + rounds->tie >= most * sp_merit_price(rounds->search, &best->pose, rounds->power))
             return best;
     }
     return &rounds->best[0];
@@ -319,109 +270,15 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     return done;
 }
 
-bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
-{
-    *bench = (sp_bench){.threads = sp_sweeper_threads(search)};
-    bench->scores = malloc((pool->count ? pool->count : 1) * sizeof *bench->scores);
-    if (!bench->scores)
-        return sp_fail_memory(error);
-    bench->sweepers = sp_sweepers_create(search, bench->threads, error);
-    if (!bench->sweepers)
-        sp_bench_free(bench);
-    return bench->sweepers;
-}
-
-void sp_bench_free(sp_bench *bench)
-{
-    free(bench->scores);
-    sp_sweepers_destroy(bench->sweepers, bench->threads);
-    *bench = (sp_bench){0};
-}
-
-/* The scores of the others' poses that are above 0. */
-static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
-{
-    sp_ranks *ranks = search->options->run.ranks;
-    sp_told told = {0};
-    sp_heard heard;
-    uint32_t count = 0;
-    if (sp_ranks_count(ranks) == 1)
-        return true;
-    for (size_t i = 0; i < pool->count; i++)
-        count += bench->scores[i] > 0;
-    sp_tell(&told, &count, sizeof count);
-    for (uint32_t i = 0; i < pool->count; i++)
-        if (bench->scores[i] > 0) {
-            sp_tell(&told, &i, sizeof i);
-            sp_tell(&told, &bench->scores[i], sizeof bench->scores[i]);
-        }
-    if (!sp_ranks_gather(ranks, "scores", &told, &heard, error))
-        return false;
-    for (size_t rank = 0; rank < heard.count; rank++)
-        for (uint32_t i, k = sp_hear(&heard, rank, &count, sizeof count) ? count : 0; k > 0; k--)
-            if (sp_hear(&heard, rank, &i, sizeof i) && i < pool->count)
-                sp_hear(&heard, rank, &bench->scores[i], sizeof bench->scores[i]);
-    sp_heard_free(&heard);
-    return true;
-}
-
-/* Scores all of the pool, each rank the poses of its own sites, exactly where they may be the best or equal to it;
- * `least` as sp_pool_best's. */
-static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power,
-                       double budget, double least, sp_bench *bench, sp_error *error)
-{
-    double tie = SP_SCORE_TIE * search->all;
-#pragma omp parallel num_threads(bench->threads)
-    {
-        sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
-        double merit = 0; /* the best of this thread's */
-#pragma omp for schedule(dynamic, 32)
-        for (size_t i = 0; i < pool->count; i++) {
-            sp_pose pose = pool->items[i];
-            bench->scores[i] = 0;
-            if (!sp_ranks_mine(search->options->run.ranks, pose.site))
-                continue;
-            double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
-            uint32_t mount = search->sites->items[pose.site].mount;
-            bool allowed =
-                affords(search, partial, mount, pose.variant, budget) && sp_partial_has_place(search, partial, mount);
-            double gain = allowed ? sp_score_pose(sweeper, search, partial, pose, enough).gain : 0;
-            bench->scores[i] = gain >= enough ? gain : 0;
-            merit = fmax(merit, bench->scores[i] / price);
-        }
-    }
-    sp_sweepers_forget(bench->sweepers, bench->threads);
-    return share_scores(search, pool, bench, error);
-}
-
-bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power, double budget,
-                  double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error)
-{
-    const double *scores = bench->scores;
-    double merit = 0, tie = SP_SCORE_TIE * search->all;
-    *gain = 0;
-    if (!score_pool(search, pool, partial, power, budget, least, bench, error))
-        return false;
-    for (size_t i = 0; i < pool->count; i++)
-        merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
-    for (size_t i = 0; merit > 0 && i < pool->count; i++)
-        if (scores[i] > 0 && scores[i] + tie >= merit * price_of(search, &pool->items[i], power)) {
-            *best = pool->items[i];
-            *gain = scores[i];
-            return true;
-        }
-    return true;
-}
-
-bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_bench *bench, sp_partial *partial, sp_error *error)
+bool sp_greedy_pool(const sp_search *search, sp_pool_gains *gains, double power, double target, double budget,
+                    sp_partial *partial, sp_error *error)
 {
     double least = GAIN_LEAST * search->all;
     bool done = true;
     while (done && partial->covered < target) {
         sp_pose pose;
         double gain;
-        done = sp_pool_best(search, pool, partial, power, budget, 0, bench, &pose, &gain, error);
+        done = sp_pool_best(search, gains, partial, power, budget, &pose, &gain, error);
         if (!done || gain < least)
             break;
         done = sp_partial_add_pose(search, partial, pose, error);

@@ -1,5 +1,7 @@
 #include "search/lineup.h"
 
+#include "search/column_gains.h"
+
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,17 +9,28 @@
 #define GAIN_LEAST 1e-5 /* of the area: less is no reason for an exchange */
 #define SWEEPS_MOST 8
 #define ROUNDS_MOST 4
-#define WORTHS 64 /* fields that are gone through at a time */
+#define NOISE 1e-12 /* of the area: what adding and taking away may leave of a gain that is none */
+
+static bool gains_create(const sp_coverage_matrix *matrix, sp_lineup_gains *gains)
+{
+    gains->hit = malloc((matrix->patch_count + 1) * sizeof *gains->hit);
+    gains->film = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *gains->film) : NULL;
+    gains->dry = malloc((matrix->patch_count + 1) * sizeof *gains->dry);
+    gains->gain = malloc((matrix->row_count + 1) * sizeof *gains->gain);
+    return gains->hit && gains->dry && gains->gain && (gains->film || !matrix->kept_film);
+}
 
 bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error)
 {
     *lineup = (sp_lineup){.matrix = matrix,
                           .hit = malloc((matrix->patch_count + 1) * sizeof *lineup->hit),
                           .dry = malloc((matrix->patch_count + 1) * sizeof *lineup->dry),
-                          .gain = malloc((matrix->row_count + 1) * sizeof *lineup->gain)};
+                          .score = malloc((matrix->row_count + 1) * sizeof *lineup->score)};
     lineup->film = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->film) : NULL;
     lineup->wet = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->wet) : lineup->hit;
-    if (!lineup->hit || !lineup->wet || !lineup->dry || !lineup->gain || (matrix->kept_film && !lineup->film)) {
+    bool known = gains_create(matrix, &lineup->known[0]) && gains_create(matrix, &lineup->known[1]);
+    if (!known || !lineup->hit || !lineup->wet || !lineup->dry || !lineup->score ||
+        (matrix->kept_film && !lineup->film)) {
         sp_lineup_free(lineup);
         return sp_fail_memory(error);
     }
@@ -32,7 +45,13 @@ void sp_lineup_free(sp_lineup *lineup)
     free(lineup->hit);
     free(lineup->film);
     free(lineup->dry);
-    free(lineup->gain);
+    free(lineup->score);
+    for (int i = 0; i < 2; i++) {
+        free(lineup->known[i].hit);
+        free(lineup->known[i].film);
+        free(lineup->known[i].dry);
+        free(lineup->known[i].gain);
+    }
     *lineup = (sp_lineup){0};
 }
 
@@ -58,7 +77,7 @@ static void pour(sp_lineup *lineup, uint32_t row)
     }
 }
 
-void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
+static void set_rows(sp_lineup *lineup, const uint32_t *rows, size_t count)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
     memcpy(lineup->hit, matrix->kept_hit, matrix->patch_count * sizeof *lineup->hit);
@@ -76,6 +95,14 @@ void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
     count_covered(lineup);
 }
 
+void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
+{
+    /* what was asked of another line-up on this memory, on whichever thread, is not to change a bit of this one's sums
+     */
+    lineup->known[0].found = lineup->known[1].found = false;
+    set_rows(lineup, rows, count);
+}
+
 void sp_lineup_add(sp_lineup *lineup, uint32_t row)
 {
     assert(lineup->count < SP_LINEUP_MOST && row < lineup->matrix->row_count);
@@ -91,7 +118,7 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i)
     assert(i < lineup->count);
     memcpy(rows, lineup->row, lineup->count * sizeof *rows);
     memmove(&rows[i], &rows[i + 1], (lineup->count - i - 1) * sizeof *rows);
-    sp_lineup_set(lineup, rows, lineup->count - 1);
+    set_rows(lineup, rows, lineup->count - 1);
 }
 
 static bool has_place(const sp_lineup *lineup, size_t row)
@@ -118,32 +145,14 @@ static bool has_number(const sp_lineup *lineup)
     return lineup->count < SP_LINEUP_MOST && (!limit || lineup->matrix->search->kept_count + lineup->count < limit);
 }
 
-/* What a field's value adds to a patch that is not wet yet, per m²; without a branch, for many at a time. */
-static inline float more_worth(bool single, float credit, float had, float dry, float more)
+static sp_left_over left_at(const sp_lineup *lineup, float credit, size_t p)
 {
-    float lack = 1 - credit * had, sum = had + more, most = more > had ? more : had, has = single ? most : sum;
-    float plenty = has >= SP_ENOUGH ? lack : credit * (has - had);
-    return dry * (more < 0 ? -more * lack : plenty);
+    return sp_left_over_of(credit, lineup->hit[p], lineup->film ? lineup->film[p] : 0, lineup->dry[p]);
 }
 
-/* A patch as a line-up leaves it, where film counts, too. */
-typedef struct {
-    float hit, film, dry;
-    float lack; /* worth per m² that it has still to gain */
-} left_over;
-
-static left_over left_at(const sp_lineup *lineup, float credit, size_t p)
+static sp_left_over known_at(const sp_lineup_gains *known, float credit, size_t p)
 {
-    float dry = lineup->dry[p];
-    return (left_over){lineup->hit[p], lineup->film[p], dry, dry * (1 - credit * lineup->wet[p])};
-}
-
-/* As more_worth, of a field's value and its film. */
-static inline float more_worth_of_both(bool single, float credit, left_over at, float field, float film)
-{
-    float more = field > 0 ? field : 0, edge = field < 0 ? 1 + field : 1, sum = at.hit + more;
-    float hit = !single ? sum : more > at.hit ? more : at.hit, runs = at.film + film, wet = hit > runs ? hit : runs;
-    return at.lack - (wet >= SP_ENOUGH ? 0 : at.dry * edge * (1 - credit * wet));
+    return sp_left_over_of(credit, known->hit[p], known->film ? known->film[p] : 0, known->dry[p]);
 }
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
@@ -155,9 +164,9 @@ static double gain_of(const sp_lineup *lineup, size_t row, float credit)
         if (lineup->wet[p] >= SP_ENOUGH)
             continue;
         bool single = matrix->search->single;
-        float worth = matrix->film ? more_worth_of_both(single, credit, left_at(lineup, credit, p), matrix->field[i],
-                                                        matrix->film[i])
-                                   : more_worth(single, credit, lineup->wet[p], lineup->dry[p], matrix->field[i]);
+        float worth = matrix->film ? sp_more_worth_of_both(single, credit, left_at(lineup, credit, p), matrix->field[i],
+                                                           matrix->film[i])
+                                   : sp_more_worth(single, credit, lineup->wet[p], lineup->dry[p], matrix->field[i]);
         gain += (double)(matrix->area[p] * worth);
     }
     return gain * matrix->search->all;
@@ -169,30 +178,42 @@ double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
     return fits ? gain_of(lineup, row, lineup->matrix->search->credit) : 0;
 }
 
-/* What every row gains, as a share of all. Patch by patch: most patches are wet already when the last rows are chosen.
- */
-static void set_gains(sp_lineup *lineup, float credit)
+/* Terms of sums that it takes to find all gains, less what it takes to bring those that are known up to date. */
+static ptrdiff_t saving(const sp_lineup *lineup, const sp_lineup_gains *known)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
-    bool single = matrix->search->single;
-    float worth[WORTHS];
-    memset(lineup->gain, 0, matrix->row_count * sizeof *lineup->gain);
+    ptrdiff_t saved = 0;
     for (size_t p = 0; p < matrix->patch_count; p++) {
-        float had = lineup->wet[p], dry = lineup->dry[p], area = matrix->area[p];
-        left_over at = matrix->film ? left_at(lineup, credit, p) : (left_over){0};
-        size_t end = matrix->column_start[p + 1];
-        for (size_t i = matrix->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
-            size_t count = end - i < WORTHS ? end - i : WORTHS;
-            const uint32_t *row = &matrix->column_row[i];
-            for (size_t k = 0; !matrix->film && k < count; k++)
-                worth[k] = area * more_worth(single, credit, had, dry, matrix->column_field[i + k]);
-            for (size_t k = 0; matrix->film && k < count; k++)
-                worth[k] = area * more_worth_of_both(single, credit, at, matrix->column_field[i + k],
-                                                     matrix->column_film[i + k]);
-            for (size_t k = 0; k < count; k++)
-                lineup->gain[row[k]] += (double)worth[k];
-        }
+        sp_left_over was = known_at(known, 0, p), is = left_at(lineup, 0, p);
+        int terms = sp_left_over_differs(&was, &is) ? (was.wet < SP_ENOUGH) + (is.wet < SP_ENOUGH) : 0;
+        saved += ((is.wet < SP_ENOUGH) - terms) * (ptrdiff_t)(matrix->column_start[p + 1] - matrix->column_start[p]);
     }
+    return saved;
+}
+
+/* What every row gains: of many nozzles one more or less changes few patches. */
+static const double *find_gains(sp_lineup *lineup, float credit)
+{
+    const sp_coverage_matrix *matrix = lineup->matrix;
+    sp_lineup_gains *known = &lineup->known[credit > 0];
+    assert(credit <= 0 || (credit >= matrix->search->credit && credit <= matrix->search->credit));
+    bool anew = !known->found || saving(lineup, known) <= 0;
+    if (anew)
+        memset(known->gain, 0, matrix->row_count * sizeof *known->gain);
+    for (size_t p = 0; p < matrix->patch_count; p++) {
+        sp_left_over was = anew ? sp_nothing_left : known_at(known, credit, p), is = left_at(lineup, credit, p);
+        size_t first = matrix->column_start[p];
+        sp_column column = {matrix->column_start[p + 1] - first, &matrix->column_row[first],
+                            &matrix->column_field[first], matrix->film ? &matrix->column_film[first] : NULL};
+        if (sp_left_over_differs(&was, &is))
+            sp_column_keep_up(matrix->search->single, credit, matrix->area[p], &column, was, is, known->gain);
+    }
+    known->found = true;
+    memcpy(known->hit, lineup->hit, matrix->patch_count * sizeof *known->hit);
+    memcpy(known->dry, lineup->dry, matrix->patch_count * sizeof *known->dry);
+    if (known->film)
+        memcpy(known->film, lineup->film, matrix->patch_count * sizeof *known->film);
+    return known->gain;
 }
 
 static double price_of(const sp_coverage_matrix *matrix, size_t row, double power)
@@ -207,15 +228,15 @@ uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double bu
     *gain = 0;
     if (!has_number(lineup))
         return 0;
-    set_gains(lineup, credit);
+    const double *gains = find_gains(lineup, credit);
     for (size_t r = 0; r < matrix->row_count; r++) {
-        if (!affords(lineup, r, budget) || !has_place(lineup, r))
-            lineup->gain[r] = 0;
-        merit = fmax(merit, lineup->gain[r] / price_of(matrix, r, power));
+        bool fits = gains[r] > NOISE && affords(lineup, r, budget) && has_place(lineup, r);
+        lineup->score[r] = fits ? gains[r] : 0;
+        merit = fmax(merit, lineup->score[r] / price_of(matrix, r, power));
     }
     for (size_t r = 0; merit > 0 && r < matrix->row_count; r++)
-        if (lineup->gain[r] > 0 && lineup->gain[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power)) {
-            *gain = lineup->gain[r] * matrix->search->all;
+        if (lineup->score[r] > 0 && lineup->score[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power)) {
+            *gain = lineup->score[r] * matrix->search->all;
             return (uint32_t)r;
         }
     return 0;

@@ -7,6 +7,13 @@
 
 #define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for so */
 
+/* What every row gains on some state of the patches. */
+typedef struct {
+    float *hit, *film, *dry; /* [matrix->patch_count], as the lineup's */
+    double *gain;            /* [matrix->row_count], share of all */
+    bool found;
+} sp_lineup_gains;
+
 typedef struct {
     const sp_coverage_matrix *matrix;
     size_t count;
@@ -15,7 +22,8 @@ typedef struct {
     double outlay;                 /* m³/s, the same with what the mounts cost */
     double covered;                /* m² of the sample */
     float *hit, *film, *wet, *dry; /* [matrix->patch_count], as sp_partial's */
-    double *gain;                  /* [matrix->row_count], scratch */
+    sp_lineup_gains known[2];      /* without and with the search's credit, on what was last asked about */
+    double *score;                 /* [matrix->row_count], scratch */
 } sp_lineup;
 
 bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error);
@@ -28,7 +36,7 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i);
  * budget, the number or its port. */
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget);
 /* The row of most gain per outlay^power, the first of equals, that fits within the budget, an uncovered patch being
- * worth `credit` per share of what it needs; *gain in m², 0 for none. */
+ * worth `credit`, 0 or the search's, per share of what it needs; *gain in m², 0 for none. */
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain);
 
 /* Puts one row, of no more outlay than the two together, in the place of two: the one that gains most there. False, and

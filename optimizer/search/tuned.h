@@ -2,7 +2,8 @@
 #ifndef OPTIMIZER_TUNED_H
 #define OPTIMIZER_TUNED_H
 
-#include "search/greedy.h"
+#include "scoring/partial.h"
+#include "search/pool.h"
 
 /* The search over the pool's poses, those of adjustable variants at several flows each. What is built of them says its
  * flows itself, so that it belongs to the original search as well. */
