@@ -98,6 +98,7 @@ static void check_best(job *j, const sp_search *search, double power, double bud
             continue;
         double own = gain_with(search, &j->partial, pose), price = sp_merit_price(search, &pose, power);
         most = fmax(most, own > tie ? own / price : 0);
+        assert_true(fabs(j->gains.score[i] - own) < tie);
         assert_true(gain > 0 || own <= tie);
     }
     if (gain <= 0)
