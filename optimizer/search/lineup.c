@@ -1,7 +1,5 @@
 #include "search/lineup.h"
 
-#include "search/column_gains.h"
-
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,15 +9,6 @@
 #define ROUNDS_MOST 4
 #define NOISE 1e-12 /* of the area: what adding and taking away may leave of a gain that is none */
 
-static bool gains_create(const sp_coverage_matrix *matrix, sp_lineup_gains *gains)
-{
-    gains->hit = malloc((matrix->patch_count + 1) * sizeof *gains->hit);
-    gains->film = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *gains->film) : NULL;
-    gains->dry = malloc((matrix->patch_count + 1) * sizeof *gains->dry);
-    gains->gain = malloc((matrix->row_count + 1) * sizeof *gains->gain);
-    return gains->hit && gains->dry && gains->gain && (gains->film || !matrix->kept_film);
-}
-
 bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error)
 {
     *lineup = (sp_lineup){.matrix = matrix,
@@ -28,8 +17,10 @@ bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_er
                           .score = malloc((matrix->row_count + 1) * sizeof *lineup->score)};
     lineup->film = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->film) : NULL;
     lineup->wet = matrix->kept_film ? malloc((matrix->patch_count + 1) * sizeof *lineup->wet) : lineup->hit;
-    bool known = gains_create(matrix, &lineup->known[0]) && gains_create(matrix, &lineup->known[1]);
-    if (!known || !lineup->hit || !lineup->wet || !lineup->dry || !lineup->score ||
+    bool done = true;
+    for (int i = 0; done && i < 2; i++)
+        done = sp_kept_gains_create(matrix->patch_count, matrix->row_count, matrix->kept_film, &lineup->known[i]);
+    if (!done || !lineup->hit || !lineup->wet || !lineup->dry || !lineup->score ||
         (matrix->kept_film && !lineup->film)) {
         sp_lineup_free(lineup);
         return sp_fail_memory(error);
@@ -46,12 +37,8 @@ void sp_lineup_free(sp_lineup *lineup)
     free(lineup->film);
     free(lineup->dry);
     free(lineup->score);
-    for (int i = 0; i < 2; i++) {
-        free(lineup->known[i].hit);
-        free(lineup->known[i].film);
-        free(lineup->known[i].dry);
-        free(lineup->known[i].gain);
-    }
+    for (int i = 0; i < 2; i++)
+        sp_kept_gains_free(&lineup->known[i]);
     *lineup = (sp_lineup){0};
 }
 
@@ -97,8 +84,7 @@ static void set_rows(sp_lineup *lineup, const uint32_t *rows, size_t count)
 
 void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
 {
-    /* what was asked of another line-up on this memory, on whichever thread, is not to change a bit of this one's sums
-     */
+    /* gains kept up from an earlier line-up on this memory, whose thread is chance, would differ in their last bits */
     lineup->known[0].found = lineup->known[1].found = false;
     set_rows(lineup, rows, count);
 }
@@ -150,11 +136,6 @@ static sp_left_over left_at(const sp_lineup *lineup, float credit, size_t p)
     return sp_left_over_of(credit, lineup->hit[p], lineup->film ? lineup->film[p] : 0, lineup->dry[p]);
 }
 
-static sp_left_over known_at(const sp_lineup_gains *known, float credit, size_t p)
-{
-    return sp_left_over_of(credit, known->hit[p], known->film ? known->film[p] : 0, known->dry[p]);
-}
-
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
@@ -179,12 +160,12 @@ double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
 }
 
 /* Terms of sums that it takes to find all gains, less what it takes to bring those that are known up to date. */
-static ptrdiff_t saving(const sp_lineup *lineup, const sp_lineup_gains *known)
+static ptrdiff_t saving(const sp_lineup *lineup, const sp_kept_gains *known)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
     ptrdiff_t saved = 0;
     for (size_t p = 0; p < matrix->patch_count; p++) {
-        sp_left_over was = known_at(known, 0, p), is = left_at(lineup, 0, p);
+        sp_left_over was = sp_kept_at(known, 0, p), is = left_at(lineup, 0, p);
         int terms = sp_left_over_differs(&was, &is) ? (was.wet < SP_ENOUGH) + (is.wet < SP_ENOUGH) : 0;
         saved += ((is.wet < SP_ENOUGH) - terms) * (ptrdiff_t)(matrix->column_start[p + 1] - matrix->column_start[p]);
     }
@@ -195,24 +176,20 @@ static ptrdiff_t saving(const sp_lineup *lineup, const sp_lineup_gains *known)
 static const double *find_gains(sp_lineup *lineup, float credit)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
-    sp_lineup_gains *known = &lineup->known[credit > 0];
+    sp_kept_gains *known = &lineup->known[credit > 0];
     assert(credit <= 0 || (credit >= matrix->search->credit && credit <= matrix->search->credit));
     bool anew = !known->found || saving(lineup, known) <= 0;
     if (anew)
         memset(known->gain, 0, matrix->row_count * sizeof *known->gain);
     for (size_t p = 0; p < matrix->patch_count; p++) {
-        sp_left_over was = anew ? sp_nothing_left : known_at(known, credit, p), is = left_at(lineup, credit, p);
+        sp_left_over was = anew ? sp_nothing_left : sp_kept_at(known, credit, p), is = left_at(lineup, credit, p);
         size_t first = matrix->column_start[p];
         sp_column column = {matrix->column_start[p + 1] - first, &matrix->column_row[first],
                             &matrix->column_field[first], matrix->film ? &matrix->column_film[first] : NULL};
         if (sp_left_over_differs(&was, &is))
             sp_column_keep_up(matrix->search->single, credit, matrix->area[p], &column, was, is, known->gain);
     }
-    known->found = true;
-    memcpy(known->hit, lineup->hit, matrix->patch_count * sizeof *known->hit);
-    memcpy(known->dry, lineup->dry, matrix->patch_count * sizeof *known->dry);
-    if (known->film)
-        memcpy(known->film, lineup->film, matrix->patch_count * sizeof *known->film);
+    sp_kept_gains_note(known, lineup->hit, lineup->film, lineup->dry);
     return known->gain;
 }
 

@@ -4,15 +4,9 @@
 #define OPTIMIZER_LINEUP_H
 
 #include "search/coverage_matrix.h"
+#include "search/kept_gains.h"
 
 #define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for so */
-
-/* What every row gains on some state of the patches. */
-typedef struct {
-    float *hit, *film, *dry; /* [matrix->patch_count], as the lineup's */
-    double *gain;            /* [matrix->row_count], share of all */
-    bool found;
-} sp_lineup_gains;
 
 typedef struct {
     const sp_coverage_matrix *matrix;
@@ -22,7 +16,7 @@ typedef struct {
     double outlay;                 /* m³/s, the same with what the mounts cost */
     double covered;                /* m² of the sample */
     float *hit, *film, *wet, *dry; /* [matrix->patch_count], as sp_partial's */
-    sp_lineup_gains known[2];      /* without and with the search's credit, on what was last asked about */
+    sp_kept_gains known[2];        /* without and with the search's credit, on what was last asked about */
     double *score;                 /* [matrix->row_count], scratch */
 } sp_lineup;
 

@@ -123,16 +123,6 @@ static bool create_parts(const sp_search *search, sp_pool_gains *gains, sp_error
     return !lacking || sp_fail_memory(error);
 }
 
-/* Of patches that nothing can be gained on, until they are first looked at. */
-static bool state_create(const sp_search *search, size_t poses, sp_pool_state *state, sp_error *error)
-{
-    state->hit = calloc(search->patch_count + 1, sizeof *state->hit);
-    state->dry = calloc(search->patch_count + 1, sizeof *state->dry);
-    state->film = search->kept_film ? calloc(search->patch_count + 1, sizeof *state->film) : NULL;
-    state->gain = calloc(poses + 1, sizeof *state->gain);
-    return (state->hit && state->dry && state->gain && (state->film || !search->kept_film)) || sp_fail_memory(error);
-}
-
 bool sp_pool_gains_create(const sp_search *search, const sp_pool *pool, sp_pool_gains *gains, sp_error *error)
 {
     *gains = (sp_pool_gains){.pool = pool, .part_count = (pool->count + PART - 1) / PART};
@@ -141,7 +131,8 @@ bool sp_pool_gains_create(const sp_search *search, const sp_pool *pool, sp_pool_
     gains->parts = calloc(gains->part_count + 1, sizeof *gains->parts);
     bool done = (gains->score && gains->changes && gains->parts) || sp_fail_memory(error);
     for (int i = 0; done && i < 2; i++)
-        done = state_create(search, pool->count, &gains->states[i], error);
+        done = sp_kept_gains_create(search->patch_count, pool->count, search->kept_film, &gains->known[i]) ||
+               sp_fail_memory(error);
     done = done && create_parts(search, gains, error);
     if (!done)
         sp_pool_gains_free(gains);
@@ -157,21 +148,17 @@ void sp_pool_gains_free(sp_pool_gains *gains)
         free(gains->parts[i].film);
         free(gains->parts[i].edge);
     }
-    for (int i = 0; i < 2; i++) {
-        free(gains->states[i].hit);
-        free(gains->states[i].film);
-        free(gains->states[i].dry);
-        free(gains->states[i].gain);
-    }
+    for (int i = 0; i < 2; i++)
+        sp_kept_gains_free(&gains->known[i]);
     free(gains->parts);
     free(gains->score);
     free(gains->changes);
     *gains = (sp_pool_gains){0};
 }
 
-static sp_left_over left_at(float credit, const float *hit, const float *film, const float *dry, size_t p)
+static sp_left_over left_at(const sp_search *search, const sp_partial *partial, size_t p)
 {
-    return sp_left_over_of(credit, hit[p], film ? film[p] : 0, dry[p]);
+    return sp_left_over_of(search->credit, partial->hit[p], partial->film ? partial->film[p] : 0, partial->dry[p]);
 }
 
 /* What entry i of a part adds to a patch, per m², where hits and edges may be of one entry. */
@@ -199,50 +186,46 @@ static void keep_up_patch(const sp_search *search, const sp_pool_part *part, siz
         gain[part->pose[i]] += (double)search->area[p] * (more_of(search, part, i, is) - more_of(search, part, i, was));
 }
 
-/* Lists the patches on which gains differ between the state and the partial layout; or, where that is less work, clears
- * the gains and lists all on which there is anything to gain. */
-static size_t list_changes(const sp_search *search, const sp_pool_gains *gains, const sp_pool_state *state,
+/* Lists the patches on which gains differ from those that are known; or, where that is less work, clears the gains and
+ * lists all on which there is anything to gain. */
+static size_t list_changes(const sp_search *search, const sp_pool_gains *gains, const sp_kept_gains *known,
                            const sp_partial *partial)
 {
     size_t count = 0, open = 0;
     ptrdiff_t saved = 0;
-    for (uint32_t p = 0; p < search->patch_count; p++) {
-        sp_left_over was = left_at(search->credit, state->hit, state->film, state->dry, p),
-                     is = left_at(search->credit, partial->hit, partial->film, partial->dry, p);
+    for (uint32_t p = 0; known->found && p < search->patch_count; p++) {
+        sp_left_over was = sp_kept_at(known, search->credit, p), is = left_at(search, partial, p);
         saved += is.wet < SP_ENOUGH;
         if (!sp_left_over_differs(&was, &is))
             continue;
         saved -= (was.wet < SP_ENOUGH) + (is.wet < SP_ENOUGH);
         gains->changes[count++] = (sp_pool_change){p, was, is};
     }
-    if (saved >= 0)
+    if (known->found && saved >= 0)
         return count;
-    memset(state->gain, 0, gains->pool->count * sizeof *state->gain);
+    memset(known->gain, 0, gains->pool->count * sizeof *known->gain);
     for (uint32_t p = 0; p < search->patch_count; p++) {
-        sp_left_over is = left_at(search->credit, partial->hit, partial->film, partial->dry, p);
+        sp_left_over is = left_at(search, partial, p);
         if (is.wet < SP_ENOUGH)
             gains->changes[open++] = (sp_pool_change){p, sp_nothing_left, is};
     }
     return open;
 }
 
-/* Brings the gains up to the partial layout. */
-static const sp_pool_state *keep_up(const sp_search *search, const sp_pool_gains *gains, const sp_partial *partial)
+/* What every pose gains on the partial layout, share of all. */
+static const double *find_gains(const sp_search *search, sp_pool_gains *gains, const sp_partial *partial)
 {
-    const sp_pool_state *state = &gains->states[search->credit > 0];
+    sp_kept_gains *known = &gains->known[search->credit > 0];
     const sp_pool_change *changes = gains->changes;
-    size_t count = list_changes(search, gains, state, partial);
+    size_t count = list_changes(search, gains, known, partial);
     int threads = sp_threads(&search->options->run);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < gains->part_count; i++)
         for (size_t k = 0; k < count; k++)
             keep_up_patch(search, &gains->parts[i], changes[k].patch, changes[k].was, changes[k].is,
-                          state->gain + gains->parts[i].first);
-    memcpy(state->hit, partial->hit, search->patch_count * sizeof *state->hit);
-    memcpy(state->dry, partial->dry, search->patch_count * sizeof *state->dry);
-    if (state->film)
-        memcpy(state->film, partial->film, search->patch_count * sizeof *state->film);
-    return state;
+                          known->gain + gains->parts[i].first);
+    sp_kept_gains_note(known, partial->hit, partial->film, partial->dry);
+    return known->gain;
 }
 
 /* True where pose i is this rank's, and one more nozzle there is allowed. */
@@ -285,11 +268,11 @@ bool sp_pool_best(const sp_search *search, sp_pool_gains *gains, const sp_partia
                   sp_pose *best, double *gain, sp_error *error)
 {
     const sp_pose *poses = gains->pool->items;
-    const sp_pool_state *state = keep_up(search, gains, partial);
+    const double *shares = find_gains(search, gains, partial);
     double merit = 0, tie = SP_SCORE_TIE * search->all;
     *gain = 0;
     for (size_t i = 0; i < gains->pool->count; i++)
-        gains->score[i] = allowed(search, partial, poses[i], budget) ? state->gain[i] * search->all : 0;
+        gains->score[i] = allowed(search, partial, poses[i], budget) ? shares[i] * search->all : 0;
     if (!share_scores(search, gains, error))
         return false;
     for (size_t i = 0; i < gains->pool->count; i++)

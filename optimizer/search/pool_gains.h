@@ -4,7 +4,7 @@
 #define OPTIMIZER_POOL_GAINS_H
 
 #include "scoring/partial.h"
-#include "search/column_gains.h"
+#include "search/kept_gains.h"
 #include "search/pool.h"
 
 /* Some of the pool's poses, as columns: which of them bring something to a patch, and what. */
@@ -16,12 +16,6 @@ typedef struct {
     float *edge;         /* share of the patch that edges cover where the field is a hit; NULL: none has both */
 } sp_pool_part;
 
-/* A layout's patches, and what every pose gains on it. */
-typedef struct {
-    float *hit, *film, *dry; /* [patch_count], as sp_partial's */
-    double *gain;            /* [pool->count], share of all; 0 of the poses of other ranks' sites */
-} sp_pool_state;
-
 typedef struct {
     uint32_t patch;
     sp_left_over was, is;
@@ -31,7 +25,7 @@ typedef struct {
     const sp_pool *pool;
     size_t part_count;
     sp_pool_part *parts;
-    sp_pool_state states[2]; /* without and with credit for what is on the way */
+    sp_kept_gains known[2];  /* without and with credit for what is on the way; 0 of the poses of other ranks' sites */
     sp_pool_change *changes; /* [patch_count], scratch */
     double *score;           /* [pool->count], m², of those that are allowed */
 } sp_pool_gains;

@@ -1,4 +1,7 @@
-#include "search/column_gains.h"
+#include "search/kept_gains.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 #define WORTHS 64 /* entries that are gone through at a time */
 
@@ -29,4 +32,32 @@ void sp_column_keep_up(bool single, float credit, float area, const sp_column *c
         for (size_t k = 0; was.wet < SP_ENOUGH && k < count; k++)
             gain[row[k]] -= (double)worth[k];
     }
+}
+
+bool sp_kept_gains_create(size_t patch_count, size_t row_count, bool film, sp_kept_gains *kept)
+{
+    *kept = (sp_kept_gains){.patch_count = patch_count,
+                            .hit = malloc((patch_count + 1) * sizeof *kept->hit),
+                            .film = film ? malloc((patch_count + 1) * sizeof *kept->film) : NULL,
+                            .dry = malloc((patch_count + 1) * sizeof *kept->dry),
+                            .gain = malloc((row_count + 1) * sizeof *kept->gain)};
+    return kept->hit && kept->dry && kept->gain && (kept->film || !film);
+}
+
+void sp_kept_gains_free(sp_kept_gains *kept)
+{
+    free(kept->hit);
+    free(kept->film);
+    free(kept->dry);
+    free(kept->gain);
+    *kept = (sp_kept_gains){0};
+}
+
+void sp_kept_gains_note(sp_kept_gains *kept, const float *hit, const float *film, const float *dry)
+{
+    memcpy(kept->hit, hit, kept->patch_count * sizeof *kept->hit);
+    memcpy(kept->dry, dry, kept->patch_count * sizeof *kept->dry);
+    if (kept->film)
+        memcpy(kept->film, film, kept->patch_count * sizeof *kept->film);
+    kept->found = true;
 }

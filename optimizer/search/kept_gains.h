@@ -1,6 +1,7 @@
-/* What the rows of one patch's column gain there, kept up as the patch changes. */
-#ifndef OPTIMIZER_COLUMN_GAINS_H
-#define OPTIMIZER_COLUMN_GAINS_H
+/* What rows of fields gain on a layout, kept up column by column from one layout to the next: most change few patches.
+ */
+#ifndef OPTIMIZER_KEPT_GAINS_H
+#define OPTIMIZER_KEPT_GAINS_H
 
 #include "scoring/wetness.h"
 
@@ -53,5 +54,24 @@ typedef struct {
 /* Brings `gain`, by row, share of all, from what the patch was to what it is. */
 void sp_column_keep_up(bool single, float credit, float area, const sp_column *column, sp_left_over was,
                        sp_left_over is, double *gain);
+
+/* A layout's patches, and what every row gains on it. */
+typedef struct {
+    size_t patch_count;
+    float *hit, *film, *dry; /* [patch_count]; film NULL: none is asked for */
+    double *gain;            /* [rows], share of all */
+    bool found;              /* false: nothing is known yet */
+} sp_kept_gains;
+
+/* False where memory ran out; sp_kept_gains_free takes what there is then. */
+bool sp_kept_gains_create(size_t patch_count, size_t row_count, bool film, sp_kept_gains *kept);
+void sp_kept_gains_free(sp_kept_gains *kept);
+/* Says that the gains are those of a layout that leaves the patches so; film as in creation. */
+void sp_kept_gains_note(sp_kept_gains *kept, const float *hit, const float *film, const float *dry);
+
+static inline sp_left_over sp_kept_at(const sp_kept_gains *kept, float credit, size_t p)
+{
+    return sp_left_over_of(credit, kept->hit[p], kept->film ? kept->film[p] : 0, kept->dry[p]);
+}
 
 #endif
