@@ -83,9 +83,9 @@ bool sp_save_water(sp_refining *refining)
 {
     static const double shares[] = {0.06, 0.03};
     sp_pool_gains gains;
-    bool done = sp_pool_gains_create(refining->search, refining->pool, &gains, refining->error);
-    if (!done)
+    if (!sp_pool_gains_create(refining->search, refining->pool, &gains, refining->error))
         return false;
+    bool done = true;
     for (size_t i = 0; done && i < sizeof shares / sizeof *shares;) {
         bool saved = false;
         if (!refining->front->best.count || !sp_deadline_goes_on(refining->deadline, "refine", 0))

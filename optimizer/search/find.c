@@ -332,9 +332,9 @@ bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *fron
     sp_pool_gains gains;
     if (!sp_deadline_goes_on(deadline, "exchange", 0))
         return true;
-    bool done = sp_pool_gains_create(search, pool, &gains, error);
-    if (!done)
+    if (!sp_pool_gains_create(search, pool, &gains, error))
         return false;
+    bool done = true;
     finding.gains = &gains;
     for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
         done = other_partial(&finding, i == 0 ? 0.5 : 0);

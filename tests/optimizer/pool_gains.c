@@ -131,8 +131,9 @@ static void gains_are_those_of_layouts(void **state)
 {
     (void)state;
     static void (*const scenes[])(recount_scene *, double) = {
-        fans_in_a_hall,  hollow_cones_in_a_hall, ports_and_kept,   one_alone,       off_the_wall,
-        film_over_boxes, film_and_one_alone,     bodies_and_boxes, bodies_and_film, goods_in_a_chamber};
+        fans_in_a_hall,  hollow_cones_in_a_hall, ports_and_kept,    one_alone,        off_the_wall,
+        film_over_boxes, film_and_one_alone,     bodies_and_boxes,  bodies_and_film,  goods_in_a_chamber,
+        any_liquid,      parts_and_parabolas,    streams_in_a_hall, measured_patterns};
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
         job j;
         job_open(&j, scenes[s], 1);
