@@ -198,13 +198,10 @@ static double price_of(const sp_coverage_matrix *matrix, size_t row, double powe
     return power == 0 ? 1 : pow(sp_coverage_matrix_outlay(matrix, row), power);
 }
 
-uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
+static sp_lineup_answer find_best(sp_lineup *lineup, double power, float credit, double budget)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
     double merit = 0;
-    *gain = 0;
-    if (!has_number(lineup))
-        return 0;
     const double *gains = find_gains(lineup, credit);
     for (size_t r = 0; r < matrix->row_count; r++) {
         bool fits = gains[r] > NOISE && affords(lineup, r, budget) && has_place(lineup, r);
@@ -212,11 +209,23 @@ uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double bu
         merit = fmax(merit, lineup->score[r] / price_of(matrix, r, power));
     }
     for (size_t r = 0; merit > 0 && r < matrix->row_count; r++)
-        if (lineup->score[r] > 0 && lineup->score[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power)) {
-            *gain = lineup->score[r] * matrix->search->all;
-            return (uint32_t)r;
-        }
-    return 0;
+        if (lineup->score[r] > 0 && lineup->score[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power))
+            return (sp_lineup_answer){(uint32_t)r, lineup->score[r] * matrix->search->all};
+    return (sp_lineup_answer){0};
+}
+
+uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
+{
+    sp_lineup_answer best = {0};
+    if (has_number(lineup)) {
+        sp_lineup_question question = sp_lineup_ask(lineup->row, lineup->count, power, credit, budget);
+        const sp_lineup_answer *known = lineup->memo ? sp_lineup_memo_find(lineup->memo, &question) : NULL;
+        best = known ? *known : find_best(lineup, power, credit, budget);
+        if (lineup->memo && !known)
+            sp_lineup_memo_note(lineup->memo, &question, best);
+    }
+    *gain = best.gain;
+    return best.row;
 }
 
 static double least_gain(const sp_lineup *lineup)

@@ -5,8 +5,7 @@
 
 #include "search/coverage_matrix.h"
 #include "search/kept_gains.h"
-
-#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for so */
+#include "search/lineup_memo.h"
 
 typedef struct {
     const sp_coverage_matrix *matrix;
@@ -18,6 +17,7 @@ typedef struct {
     float *hit, *film, *wet, *dry; /* [matrix->patch_count], as sp_partial's */
     sp_kept_gains known[2];        /* without and with the search's credit, on what was last asked about */
     double *score;                 /* [matrix->row_count], scratch */
+    sp_lineup_memo *memo;          /* of best rows found already, borrowed; NULL: each is found anew */
 } sp_lineup;
 
 bool sp_lineup_create(const sp_coverage_matrix *matrix, sp_lineup *lineup, sp_error *error);

@@ -240,6 +240,8 @@ static bool enumerate(enumeration *e, sp_error *error)
 /* What the beginnings for one outlay become. */
 static void improve(const enumeration *e, size_t b, sp_lineup *own, sp_lineup *scratch, sp_lineup *best)
 {
+    sp_lineup_memo memo = {0};
+    own->memo = scratch->memo = &memo;
     for (size_t k = 0; k < STARTS && sp_deadline_goes_on(e->deadline, "front", 0); k++) {
         const start *from = promising(e, b, k);
         if (!from)
@@ -251,6 +253,8 @@ static void improve(const enumeration *e, size_t b, sp_lineup *own, sp_lineup *s
     }
     if (6 * (double)best->count * work_of(e, best->count) <= REGROUP_WORK)
         sp_lineup_regroup(best, e->budgets[b], scratch);
+    own->memo = scratch->memo = NULL;
+    sp_lineup_memo_free(&memo);
 }
 
 /* The best beginnings improved, dealt out by outlay. */
