@@ -1,9 +1,9 @@
 #include "candidates/mounts.h"
 
-#include "mesh/grow.h"
-
-#include "mesh/distance.h"
 #include "deadline/deadline.h"
+#include "mesh/distance.h"
+#include "mesh/grow.h"
+#include "trace/distance.h"
 
 #include <stdlib.h>
 
@@ -50,12 +50,14 @@ sp_vec3 sp_port_place(const sp_setup *setup, const sp_mount *mount, double depth
     return sp_sub(place, setup->origin);
 }
 
-static bool port_sites(const sp_setup *setup, const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
+static bool port_sites(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *sites,
+                       sp_error *error)
 {
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
     size_t count;
     if (!steps(mount->depth_to - mount->depth_from, mount->depth_spacing, &count, error))
         return false;
-    uint32_t nearest = sp_nearest_triangle(setup->mesh, SP_NONE, mount->position);
+    uint32_t nearest = sp_tracer_nearest_triangle(sp_evaluator_tracer(evaluator), SP_NONE, mount->position);
     double last = -1;
     for (size_t i = 0; i < count; i++) {
         double depth =
@@ -242,7 +244,7 @@ bool sp_site_project(const sp_evaluator *evaluator, const sp_place_options *opti
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     const sp_mesh *mesh = setup->mesh;
     const sp_mount *mount = &options->mounts[site->mount];
-    uint32_t triangle = sp_nearest_triangle(mesh, site->own, point);
+    uint32_t triangle = sp_tracer_nearest_triangle(sp_evaluator_tracer(evaluator), site->own, point);
     if (triangle == SP_NONE)
         return false;
     bool back = sp_dot(sp_triangle_normal(mesh, triangle), site->axis) < 0;
@@ -257,7 +259,7 @@ static bool mount_sites(const sp_evaluator *evaluator, const sp_mount *mount, ui
 {
     switch (mount->kind) {
     case SP_MOUNT_PORT:
-        return port_sites(sp_evaluator_setup(evaluator), mount, index, sites, error);
+        return port_sites(evaluator, mount, index, sites, error);
     case SP_MOUNT_SURFACE:
         return surface_sites(evaluator, mount, index, sites, error);
     case SP_MOUNT_LINE:

@@ -4,6 +4,7 @@
 #include "mesh/distance.h"
 #include "spray/restore.h"
 #include "spray/wet/told.h"
+#include "trace/distance.h"
 #include "trace/ray/visit.h"
 
 #include <stdlib.h>
@@ -190,7 +191,7 @@ size_t sp_live_boxes(sp_live *live)
 const double *sp_live_foot(sp_live *live, uint32_t part, double x, double y, double z)
 {
     sp_vec3 point = sp_v(x, y, z);
-    uint32_t triangle = sp_nearest_triangle(&live->mesh, part, point);
+    uint32_t triangle = sp_tracer_nearest_triangle(sp_evaluator_tracer(live->evaluator), part, point);
     if (triangle == SP_NONE)
         return NULL;
     sp_vec3 foot = sp_triangle_nearest(&live->mesh, triangle, point);

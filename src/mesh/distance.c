@@ -40,50 +40,16 @@ static inline double outside(double a, double b, double c, double p)
     return p < low ? low - p : p > high ? p - high : 0;
 }
 
-/* Whether the triangle's box, and so perhaps the triangle, comes nearer than a distance squared. Most that do not,
- * along one axis do not. */
-static inline bool may_be_nearer(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double distance2)
+/* Comparisons along one axis at a time: most that are not within, along one axis are not. */
+bool sp_triangle_may_be_within(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double distance2)
 {
     const uint32_t *corner = mesh->triangles[triangle];
     sp_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
     double x = outside(a.x, b.x, c.x, p.x);
-    if (x * x >= distance2)
+    if (x * x > distance2)
         return false;
     double y = outside(a.y, b.y, c.y, p.y), z = outside(a.z, b.z, c.z, p.z);
-    return x * x + y * y + z * z < distance2;
-}
-
-uint32_t sp_nearest_triangle(const sp_mesh *mesh, uint32_t part, sp_vec3 point)
-{
-    uint32_t nearest = SP_NONE;
-    double best = INFINITY;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if ((part != SP_NONE && mesh->part[t] != part) || !may_be_nearer(mesh, t, point, best))
-            continue;
-        sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
-        double distance = sp_dot(away, away);
-        if (distance < best) {
-            best = distance;
-            nearest = t;
-        }
-    }
-    return nearest;
-}
-
-bool sp_is_clear(const sp_mesh *mesh, sp_vec3 point, double clearance, uint32_t own)
-{
-    /* A point placed exactly at the clearance must not fail by round-off. */
-    double limit = clearance * clearance * (1 - 1e-9);
-    if (limit <= 0)
-        return true;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (mesh->part[t] == own || !may_be_nearer(mesh, t, point, limit))
-            continue;
-        sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
-        if (sp_dot(away, away) < limit)
-            return false;
-    }
-    return true;
+    return x * x + y * y + z * z <= distance2;
 }
 
 /* Squared. Ericson, 5.1.9, for ways and edges that have a length. */
@@ -115,7 +81,7 @@ static bool way_meets(sp_vec3 from, sp_vec3 to, sp_vec3 a, sp_vec3 b, sp_vec3 c)
     return true;
 }
 
-static double way_to_triangle(const sp_mesh *mesh, uint32_t triangle, sp_vec3 from, sp_vec3 to)
+double sp_triangle_way2(const sp_mesh *mesh, uint32_t triangle, sp_vec3 from, sp_vec3 to)
 {
     sp_vec3 corner[3], at_start = sp_sub(sp_triangle_nearest(mesh, triangle, from), from),
                        at_end = sp_sub(sp_triangle_nearest(mesh, triangle, to), to);
@@ -127,15 +93,4 @@ static double way_to_triangle(const sp_mesh *mesh, uint32_t triangle, sp_vec3 fr
     for (int k = 0; k < 3; k++)
         least = fmin(least, between_ways(from, to, corner[k], corner[(k + 1) % 3]));
     return least;
-}
-
-bool sp_way_is_clear(const sp_mesh *mesh, sp_vec3 from, sp_vec3 to, double clearance)
-{
-    double limit = clearance * clearance * (1 - 1e-9);
-    sp_vec3 middle = sp_scale(sp_add(from, to), 0.5);
-    double around = 0.5 * sp_distance(from, to) + clearance;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        if (may_be_nearer(mesh, t, middle, around * around * (1 + 1e-9)) && way_to_triangle(mesh, t, from, to) <= limit)
-            return false;
-    return true;
 }

@@ -2,7 +2,7 @@
 #include "bodies.h"
 #include "movers.h"
 
-#include "mesh/distance.h"
+#include "trace/distance.h"
 
 #define TOUCH 1e-6 /* of the geometry's diagonal: nearer than this a nozzle is in the wall */
 
@@ -16,28 +16,30 @@ static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
 }
 
 /* What stands; all where nothing moves. */
-static const sp_mesh *standing(const sp_evaluator *evaluator)
+static const sp_tracer *standing(const sp_evaluator *evaluator)
 {
-    return evaluator->movers ? evaluator->movers->mesh[SP_STANDING] : evaluator->setup.mesh;
+    return evaluator->movers ? evaluator->movers->tracer[SP_STANDING] : evaluator->tracer;
 }
 
 /* Goods that pass a point do so as the point would pass them. */
 static bool is_out_of_the_way(const sp_evaluator *evaluator, sp_vec3 point, double clearance)
 {
     const sp_sweep *sweep = &evaluator->setup.sweep;
-    return !evaluator->movers || sp_way_is_clear(evaluator->movers->mesh[SP_MOVING], sp_sub(point, sweep->from),
-                                                 sp_sub(point, sweep->to), clearance);
+    return !evaluator->movers ||
+           sp_tracer_way_is_clear(evaluator->movers->tracer[SP_MOVING], sp_sub(point, sweep->from),
+                                  sp_sub(point, sweep->to), clearance);
 }
 
 bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own)
 {
-    return sp_is_clear(standing(evaluator), point, clearance, own) && is_out_of_the_way(evaluator, point, clearance);
+    return sp_tracer_is_clear(standing(evaluator), point, clearance, own) &&
+           is_out_of_the_way(evaluator, point, clearance);
 }
 
 /* Where liquid leaves a nozzle. */
 static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
-    const sp_mesh *mesh = standing(evaluator);
+    const sp_tracer *tracer = standing(evaluator);
     sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
     double touch = TOUCH * sp_distance(evaluator->low, evaluator->high);
     if (!is_out_of_the_way(evaluator, p, touch))
@@ -46,8 +48,9 @@ static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp
             "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in the way of the goods of the sweep; expected a place "
             "that they pass by",
             exit->name, told.x, told.y, told.z);
-    if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
-        uint32_t triangle = sp_nearest_triangle(mesh, SP_NONE, p);
+    if (!sp_tracer_is_clear(tracer, p, touch, SP_NONE)) {
+        const sp_mesh *mesh = sp_tracer_mesh(tracer);
+        uint32_t triangle = sp_tracer_nearest_triangle(tracer, SP_NONE, p);
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in a wall, part \"%s\"; expected a place clear of "
                        "all surfaces",

@@ -4,6 +4,7 @@
 #include "files.h"
 
 #include "mesh/distance.h"
+#include "trace/distance.h"
 
 #include <ctype.h>
 #include <stdint.h>
@@ -148,12 +149,16 @@ static bool is_seen(const figures *a, const figures *b)
 /* How far vertices of one lie off the other. */
 static double farthest(const sp_mesh *from, const sp_mesh *to)
 {
+    sp_error error = {0};
+    sp_tracer *tracer = sp_tracer_create(to, SP_ACCELERATOR_BVH, 1, &error);
     double most = 0;
+    assert_non_null(tracer);
     for (size_t i = 0; i < from->vertex_count; i++) {
         sp_vec3 p = from->vertices[i];
-        sp_vec3 at = sp_triangle_nearest(to, sp_nearest_triangle(to, SP_NONE, p), p);
+        sp_vec3 at = sp_triangle_nearest(to, sp_tracer_nearest_triangle(tracer, SP_NONE, p), p);
         most = fmax(most, sp_distance(p, at));
     }
+    sp_tracer_destroy(tracer);
     return most;
 }
 
