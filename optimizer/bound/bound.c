@@ -14,7 +14,7 @@
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
 {
-    *bound = (sp_bound){.cover = cover, .pricer = pricer, .iterations = ITERATIONS, .tolerance = TOLERANCE};
+    *bound = (sp_bound){.cover = cover, .pricer = pricer, .iterations = ITERATIONS, .tolerance = TOLERANCE, .reach = 1};
     if (!sp_dual_create(cover, &bound->dual, error) ||
         !sp_offers_create(cover->tier_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
                           &bound->offers, error)) {
@@ -150,8 +150,8 @@ bool sp_bound_lower_single(sp_bound *bound, sp_error *error)
 static bool solve(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
-    size_t fit = water / bound->lightest;
-    assert(fit > 0 && water <= cover->water);
+    size_t fit = (size_t)(bound->reach * (double)water) / bound->lightest;
+    assert(bound->reach >= 1 && fit > 0 && water <= cover->water);
     sp_valid_inequalities_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->inequalities);
     sp_dual_task task = {.nozzles = cover->nozzles,
                          .water = water,

@@ -33,6 +33,7 @@ typedef struct {
     size_t iterations; /* of a solve, at most; may be set */
     size_t coarse;     /* of it on groups of texels, before these; may be set */
     double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
+    double reach;      /* times a solve's water, that its inequalities are to hold for; may be set */
     sp_valid_inequalities inequalities; /* of the last task */
     bool strengthening;                 /* they have come into use */
 } sp_bound;

@@ -1,0 +1,54 @@
+/* A certificate in the making, and how the bound at one water is lowered. Its files: this one, the points of the front
+ * (front_bounds.h), and the order in which all is done (certificate.c). */
+#ifndef OPTIMIZER_CERTIFYING_H
+#define OPTIMIZER_CERTIFYING_H
+
+#include "certificate/pricings.h"
+#include "certificate/problem.h"
+
+/* A layout of the front, or the proposal. */
+typedef struct {
+    size_t water;  /* units that it may take */
+    double found;  /* m² that a layout found with no more water covers */
+    bool had_turn; /* in this pass */
+} sp_certified_point;
+
+/* What may be done, in words of sp_tuples: in all, and one by one at a point; and for it pricings of all, and
+ * candidates that its layouts are made of. */
+typedef struct {
+    double work, each;
+    size_t rounds, candidates;
+} sp_effort;
+
+typedef struct {
+    sp_problem problem;
+    sp_deadline *deadline;
+    sp_bound bound;
+    sp_pricings pricings;
+    size_t point_count;
+    sp_certified_point *points;
+    double done; /* how far it all is, 0 to 1 */
+} sp_certifying;
+
+/* For a problem that was created and is taken over, also on error. */
+bool sp_certifying_prepare(sp_certifying *c, sp_error *error);
+void sp_certifying_free(sp_certifying *c);
+
+/* False once cancelled or out of time, which leaves the proposal as good as it is. `done`: how far the certificate is.
+ */
+bool sp_certifying_has_time(sp_certifying *c, double done);
+/* What pricing all candidates so often takes, in words of sp_tuples. */
+double sp_pricing_work(const sp_certifying *c, size_t rounds);
+
+/* Solves at this water and prices all candidates, `rounds` times. */
+bool sp_lower_bound(sp_certifying *c, size_t water, size_t rounds, sp_error *error);
+/* The same, `open` of whose bound nothing found comes up to. Where that is wide multipliers are sought on groups of
+ * texels first: these get further in as much time, but do not see what a narrow gap is about. */
+bool sp_lower_open_bound(sp_certifying *c, size_t water, double open, size_t rounds, sp_error *error);
+/* Looks at the layouts of so much water one by one, by the multipliers that the bound was last proved with, for those
+ * that cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that
+ * a few candidates come up to, then more, while there is work left. */
+bool sp_look_at_layouts(sp_certifying *c, size_t water, double found, double least, sp_effort most, double *work,
+                        sp_error *error);
+
+#endif
