@@ -283,13 +283,43 @@ static void tuned_poses_say_their_flow(void **state)
     job_close(&j);
 }
 
+/* What is remembered is what was asked, whichever way its rows came in, and nothing that was not. */
+static void memos_tell_questions_apart(void **state)
+{
+    (void)state;
+    sp_lineup_memo memo = {0};
+    static const struct {
+        uint32_t row[3];
+        size_t count;
+        double power, budget;
+        float credit;
+    } asked[] = {{{3, 1, 2}, 3, 1, 5, 0.5f}, {{3, 1, 2}, 2, 1, 5, 0.5f}, {{3, 1, 4}, 3, 1, 5, 0.5f},
+                 {{3, 1, 2}, 3, 0, 5, 0.5f}, {{3, 1, 2}, 3, 1, 6, 0.5f}, {{3, 1, 2}, 3, 1, 5, 0}};
+    const size_t count = sizeof asked / sizeof *asked;
+    for (size_t i = 0; i < count; i++) {
+        sp_lineup_question question =
+            sp_lineup_ask(asked[i].row, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
+        assert_null(sp_lineup_memo_find(&memo, &question));
+        sp_lineup_memo_note(&memo, &question, (sp_lineup_answer){(uint32_t)i, (double)i});
+    }
+    for (size_t i = 0; i < count; i++) {
+        uint32_t turned[3] = {asked[i].row[1], asked[i].row[2], asked[i].row[0]};
+        const uint32_t *rows = asked[i].count == 3 ? turned : asked[i].row;
+        sp_lineup_question question =
+            sp_lineup_ask(rows, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
+        const sp_lineup_answer *answer = sp_lineup_memo_find(&memo, &question);
+        assert_non_null(answer);
+        assert_int_equal(answer->row, i);
+    }
+    sp_lineup_memo_free(&memo);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(enumeration_comes_near_the_best),
-        cmocka_unit_test(two_merge_into_the_best_one),
-        cmocka_unit_test(regrouping_never_loses),
-        cmocka_unit_test(tuned_poses_say_their_flow),
+        cmocka_unit_test(enumeration_comes_near_the_best), cmocka_unit_test(two_merge_into_the_best_one),
+        cmocka_unit_test(regrouping_never_loses),          cmocka_unit_test(tuned_poses_say_their_flow),
+        cmocka_unit_test(memos_tell_questions_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
