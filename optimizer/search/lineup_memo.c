@@ -30,36 +30,22 @@ static bool is_same(const sp_lineup_question *a, const sp_lineup_question *b)
     return same;
 }
 
-/* FNV-1a of the rows: Fowler, Noll and Vo, RFC 9923. What else is asked varies little. */
-static uint64_t hash_of(const sp_lineup_question *question)
-{
-    uint64_t hash = 0xcbf29ce484222325;
-    for (size_t i = 0; i < question->count; i++)
-        hash = (hash ^ question->row[i]) * 0x100000001b3;
-    return hash;
-}
-
 const sp_lineup_answer *sp_lineup_memo_find(const sp_lineup_memo *memo, const sp_lineup_question *question)
 {
-    uint64_t hash = hash_of(question);
     for (size_t i = 0; i < memo->count; i++)
-        if (memo->hash[i] == hash && is_same(&memo->items[i].question, question))
+        if (is_same(&memo->items[i].question, question))
             return &memo->items[i].answer;
     return NULL;
 }
 
 void sp_lineup_memo_note(sp_lineup_memo *memo, const sp_lineup_question *question, sp_lineup_answer answer)
 {
-    if (!sp_grow(&memo->hash, &memo->hash_capacity, memo->count + 1, sizeof *memo->hash) ||
-        !sp_grow(&memo->items, &memo->item_capacity, memo->count + 1, sizeof *memo->items))
-        return;
-    memo->hash[memo->count] = hash_of(question);
-    memo->items[memo->count++] = (struct sp_lineup_memory){*question, answer};
+    if (sp_grow(&memo->items, &memo->capacity, memo->count + 1, sizeof *memo->items))
+        memo->items[memo->count++] = (struct sp_lineup_memory){*question, answer};
 }
 
 void sp_lineup_memo_free(sp_lineup_memo *memo)
 {
-    free(memo->hash);
     free(memo->items);
     *memo = (sp_lineup_memo){0};
 }

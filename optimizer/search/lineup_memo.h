@@ -24,8 +24,7 @@ typedef struct {
 
 /* Of one coverage matrix. Zeroed: nothing is remembered yet. */
 typedef struct {
-    size_t count, hash_capacity, item_capacity;
-    uint64_t *hash; /* [count] */
+    size_t count, capacity;
     struct sp_lineup_memory *items;
 } sp_lineup_memo;
 
