@@ -9,7 +9,7 @@
 #include "refine/refine.h"
 #include "refine/settings.h"
 
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <sprayplan/points.h>
 

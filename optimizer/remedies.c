@@ -1,7 +1,7 @@
 #include "remedies.h"
 
 #include "attainable/coarse_patch.h"
-#include "scoring/partial_told.h"
+#include "scoring/partial_packing.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -130,8 +130,8 @@ static sp_ranks *ranks_of(const remedying *r)
 static bool scan(remedying *r, const sp_partial *partial, sp_error *error)
 {
     size_t sites = r->search->sites->count;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     memset(r->best, 0, sites * sizeof *r->best);
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
@@ -140,13 +140,13 @@ static bool scan(remedying *r, const sp_partial *partial, sp_error *error)
     sp_sweepers_forget(r->sweepers, r->threads);
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(r), i))
-            sp_tell(&told, &r->best[i], sizeof r->best[i]);
-    if (!sp_ranks_gather(ranks_of(r), "shadow", &told, &heard, error))
+            sp_pack(&outgoing, &r->best[i], sizeof r->best[i]);
+    if (!sp_ranks_gather(ranks_of(r), "shadow", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < sites; i++)
         if (!sp_ranks_mine(ranks_of(r), i))
-            sp_hear(&heard, sp_ranks_owner(ranks_of(r), i), &r->best[i], sizeof r->best[i]);
-    sp_heard_free(&heard);
+            sp_unpack(&gathered, sp_ranks_owner(ranks_of(r), i), &r->best[i], sizeof r->best[i]);
+    sp_gathered_free(&gathered);
     return true;
 }
 
@@ -229,21 +229,21 @@ static bool try_out(const remedying *r, const sp_partial *partial, uint32_t shad
 /* What the others have found for their shadows, first to end. */
 static bool share(const remedying *r, sp_remedy *remedies, size_t first, size_t end, sp_error *error)
 {
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = first; i < end; i++)
         if (sp_ranks_mine(ranks_of(r), i)) {
-            sp_tell(&told, &remedies[i], sizeof remedies[i]);
-            sp_tell_nozzle(r->search, &remedies[i].nozzle, &told);
+            sp_pack(&outgoing, &remedies[i], sizeof remedies[i]);
+            sp_pack_nozzle(r->search, &remedies[i].nozzle, &outgoing);
         }
-    if (!sp_ranks_gather(ranks_of(r), "remedies", &told, &heard, error))
+    if (!sp_ranks_gather(ranks_of(r), "remedies", &outgoing, &gathered, error))
         return false;
     for (size_t i = first; i < end; i++) {
         size_t rank = sp_ranks_owner(ranks_of(r), i);
-        if (!sp_ranks_mine(ranks_of(r), i) && sp_hear(&heard, rank, &remedies[i], sizeof remedies[i]))
-            sp_hear_nozzle(r->search, &heard, rank, &remedies[i].nozzle);
+        if (!sp_ranks_mine(ranks_of(r), i) && sp_unpack(&gathered, rank, &remedies[i], sizeof remedies[i]))
+            sp_unpack_nozzle(r->search, &gathered, rank, &remedies[i].nozzle);
     }
-    sp_heard_free(&heard);
+    sp_gathered_free(&gathered);
     return true;
 }
 

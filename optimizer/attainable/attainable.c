@@ -1,8 +1,9 @@
 #include "attainable/attainable.h"
 
-#include "attainable/bounce.h"
+#include "attainable/reflected.h"
 #include "attainable/passing.h"
-#include "attainable/runs.h"
+#include "attainable/by_fields.h"
+#include "scoring/mount_capacity.h"
 #include "spray/criterion.h"
 
 #include <omp.h>
@@ -45,7 +46,7 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t lau
     const sp_search *search = reckoning->search;
     const sp_mount *mount = &search->options->mounts[site->mount];
     double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
-    size_t place = sp_mount_room(mount) == 1 ? site->mount : search->options->mount_count;
+    size_t place = sp_mount_capacity(mount) == 1 ? site->mount : search->options->mount_count;
     bool better = false;
     for (size_t k = 0; k < search->candidates->variant_count; k++) {
         const sp_variant *variant = &search->candidates->variants[k];
@@ -225,7 +226,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
         done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
-               (deadline->cancelled || (sp_runs(fine, search, scopes, deadline, reasons, error) &&
+               (deadline->cancelled || (sp_attain_by_fields(fine, search, scopes, deadline, reasons, error) &&
                                         (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
                                                : sp_bounces(fine, search, reasons, error))));
     }

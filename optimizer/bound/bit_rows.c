@@ -1,4 +1,5 @@
 #include "bound/bit_rows.h"
+#include "bound/rounding.h"
 
 #include "mesh/grow.h"
 #include "ranking/ranking.h"
@@ -8,21 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define UNITS 0xffff             /* of the largest texel */
-#define UPWARDS (1 + 1e-9)       /* more than the sums here are rounded by */
-#define EDGES_UPWARDS (1 + 1e-6) /* the same, of numbers in single precision */
+#define UNITS 0xffff /* of the largest texel */
 
 /* Texels by falling area, 64 a word. */
 static void place_texels(sp_ranked *order, size_t count, sp_bit_rows *sets)
 {
     sp_rank_falling(order, count);
-    sets->unit = count ? order[0].merit / UNITS * UPWARDS : 1;
+    sets->unit = count ? order[0].merit / UNITS * SP_UPWARDS_SETS : 1;
     assert(sets->unit > 0);
     for (size_t i = 0; i < count; i++) {
         sets->place[order[i].at] = (uint32_t)i;
         if (i % 64 == 0)
             sets->area[i / 64] = (uint32_t)ceil(order[i].merit / sets->unit);
-        assert(sets->area[i / 64] <= UNITS && order[i].merit <= sets->area[i / 64] * sets->unit * UPWARDS);
+        assert(sets->area[i / 64] <= UNITS && order[i].merit <= sets->area[i / 64] * sets->unit * SP_UPWARDS_SETS);
     }
 }
 
@@ -121,7 +120,7 @@ double sp_bit_rows_edge(const sp_bit_rows *sets, size_t row, const uint64_t *had
         uint32_t place = sets->edge_at[i];
         sum += (had[place / 64] >> place % 64 & 1) ? 0 : (double)sets->edge_covers[i];
     }
-    return sum * EDGES_UPWARDS;
+    return sum * SP_UPWARDS_SINGLE;
 }
 
 static inline uint64_t count_gain(const uint64_t *row, const uint64_t *had, const uint32_t *area, size_t words)

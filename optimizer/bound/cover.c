@@ -1,4 +1,5 @@
 #include "bound/cover.h"
+#include "bound/rounding.h"
 
 #include "mesh/grow.h"
 
@@ -6,8 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define UPWARDS (1 + 1e-11)
 
 #ifndef NDEBUG
 /* Texels ascend, with one entry or, where a spray ends within one, two; no share is 0 or a NaN. */
@@ -168,7 +167,7 @@ double sp_rows_price(const sp_rows *rows, size_t row, const sp_multipliers *mult
                 (double)sp_share_strengthened(multipliers->inequalities, multipliers->kind[t], rows->share[i]) *
                 (double)multipliers->strengthened[t];
     }
-    return (plain + strengthened) * UPWARDS;
+    return (plain + strengthened) * SP_UPWARDS_TEXELS;
 }
 
 double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers)
@@ -179,5 +178,5 @@ double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers)
         assert(multipliers->plain[t] >= 0 && multipliers->strengthened[t] >= 0);
         rest += fmax(0, (double)cover->area[t] - (double)multipliers->plain[t] - (double)multipliers->strengthened[t]);
     }
-    return rest * UPWARDS;
+    return rest * SP_UPWARDS_TEXELS;
 }

@@ -1,11 +1,10 @@
 #include "bound/knapsack.h"
+#include "bound/rounding.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define UPWARDS (1 + 1e-12) /* more than all roundings of one table's sums */
 
 bool sp_offers_create(size_t tier_count, const uint32_t *weight, size_t port_count, size_t most, bool repeats,
                       sp_offers *offers, sp_error *error)
@@ -148,8 +147,8 @@ void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t wat
         take_one(knapsack, offers, &offers->port[p * offers->tier_count], water);
     for (size_t n = 0; n < knapsack->rows; n++)
         for (size_t w = 0; w <= water; w++)
-            knapsack->value[n * row + w] *= UPWARDS;
-    knapsack->best = best_of(offers) * UPWARDS;
+            knapsack->value[n * row + w] *= SP_UPWARDS_TABLE;
+    knapsack->best = best_of(offers) * SP_UPWARDS_TABLE;
 }
 
 double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water)

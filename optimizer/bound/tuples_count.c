@@ -1,4 +1,5 @@
 #include "bound/tuples_work.h"
+#include "bound/rounding.h"
 
 #include <assert.h>
 #include <math.h>
@@ -6,7 +7,6 @@
 #include <string.h>
 
 #define CHECKED_AT_A_TIME 64 /* layouts, before the clock is asked again */
-#define SHARE_UPWARDS (1 + 1e-6)
 
 /* What a layout brings to every texel: shares in all, and the part that edges leave dry. */
 typedef struct {
@@ -39,7 +39,7 @@ static bool bring(const sp_tuples *o, uint32_t one, const brought *from, brought
         /* where a spray ends within a texel it has two entries */
         for (end = k; end < row.used && row.texel[end] == t; end++)
             if (row.share[end] > 0)
-                sum += (double)row.share[end] * SHARE_UPWARDS;
+                sum += (double)row.share[end] * SP_UPWARDS_SINGLE;
             else
                 dry *= 1 + (double)row.share[end];
         assert(dry >= 0 && dry <= 1);
@@ -80,7 +80,7 @@ static bool check(sp_tuples *o, brought *kept, double *most, sp_error *error)
                 return false;
         if (!bring(o, now->item[now->count - 1], &kept[now->count - 1], &whole, error))
             return false;
-        *most = fmax(*most, whole.area * SHARE_UPWARDS);
+        *most = fmax(*most, whole.area * SP_UPWARDS_SINGLE);
         last = now;
     }
     return true;

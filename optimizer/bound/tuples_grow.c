@@ -72,7 +72,7 @@ static double united(worker *own, size_t count)
     }
     for (size_t i = 0; i < count; i++)
         area += sp_bit_rows_edge(&o->sets, o->items[own->chosen[i]].set, all);
-    return area * UPWARDS;
+    return area * SP_UPWARDS_SETS;
 }
 
 static void note_found(worker *own, size_t count)
@@ -150,7 +150,7 @@ static void list_joining(worker *own, size_t depth, size_t first, double covered
         if ((other->port == chosen->port && other->port != SP_NO_PORT) ||
             !sp_tuples_all_above(o, priced, other->price, chosen->kind, water - other->weight))
             continue;
-        double gain = (sp_bit_rows_gain(&o->sets, other->set, to->had) + o->sets.edge[other->set]) * UPWARDS;
+        double gain = (sp_bit_rows_gain(&o->sets, other->set, to->had) + o->sets.edge[other->set]) * SP_UPWARDS_SETS;
         swept++;
         if (covered + gain + others > o->target)
             to->entries[to->count++] = (sp_ranked){gain, from->entries[i].at};
@@ -166,7 +166,7 @@ static bool choose(worker *own, size_t depth, size_t i, double covered, const do
     const sp_tuples *o = own->all;
     const level *at = &own->levels[depth];
     const sp_tuple_item *one = &o->items[at->entries[i].at];
-    double now = (covered + at->entries[i].merit) * UPWARDS;
+    double now = (covered + at->entries[i].merit) * SP_UPWARDS_SETS;
     assert(depth < DEEP_MOST && one->weight <= water && one->set < o->sets.count);
     size_t left = water - one->weight;
     if (now + sp_tuples_of_kind(o, at->most, one->kind)[left / o->unit] <= o->target)

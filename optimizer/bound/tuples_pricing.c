@@ -47,7 +47,7 @@ static void fill_prices(sp_tuples *o, size_t k, const size_t *kind_start, const 
 static bool priced_above(const sp_tuples *o, size_t k, double priced, size_t kind, size_t water)
 {
     double most = o->most_priced[k][kind * (o->steps + 1) + water / o->unit];
-    return (o->rest[k] + priced + most) * UPWARDS > o->target;
+    return (o->rest[k] + priced + most) * SP_UPWARDS_SETS > o->target;
 }
 
 bool sp_tuples_all_above(const sp_tuples *o, const double *priced, const float *more, size_t kind, size_t water)
@@ -61,7 +61,7 @@ bool sp_tuples_all_above(const sp_tuples *o, const double *priced, const float *
 /* The highest target that a candidate could be part of a layout above, by the k-th multipliers. */
 static double above_by(const sp_tuples *o, size_t k, double price, size_t kind)
 {
-    return (o->rest[k] + price + o->most_priced[k][(o->water - o->list->weight[kind]) / o->unit]) * UPWARDS;
+    return (o->rest[k] + price + o->most_priced[k][(o->water - o->list->weight[kind]) / o->unit]) * SP_UPWARDS_SETS;
 }
 
 double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above, size_t count)

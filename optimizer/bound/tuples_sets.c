@@ -38,7 +38,7 @@ static bool add_sets(sp_tuples *o, size_t first, size_t end, const sp_rows *rows
         if (!sp_bit_rows_add(&o->sets, o->cover, &rows[i - first], 0, least, error))
             return false;
         own->set = (uint32_t)(o->sets.count - 1);
-        own->alone = (sp_bit_rows_gain(&o->sets, own->set, none) + o->sets.edge[own->set]) * UPWARDS;
+        own->alone = (sp_bit_rows_gain(&o->sets, own->set, none) + o->sets.edge[own->set]) * SP_UPWARDS_SETS;
     }
     o->over = sp_bit_rows_bytes(&o->sets) > BYTES_MOST;
     return true;

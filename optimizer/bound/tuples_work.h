@@ -5,10 +5,10 @@
 
 #include "bound/bit_rows.h"
 #include "bound/tuples.h"
+#include "bound/rounding.h"
 
-#define DEEP_MOST 6        /* nozzles of a layout that are chosen one by one */
-#define WORK_ROW 2e5       /* words that take as long as a row */
-#define UPWARDS (1 + 1e-9) /* more than sums here are rounded by */
+#define DEEP_MOST 6  /* nozzles of a layout that are chosen one by one */
+#define WORK_ROW 2e5 /* words that take as long as a row */
 #define NO_SET UINT32_MAX
 /* Multipliers that layouts are told by: those given, the texels' areas, and what lies between. */
 #define BY_MULTIPLIERS 5

@@ -1,9 +1,8 @@
 #include "bound/valid_inequality.h"
+#include "bound/rounding.h"
 
 #include <assert.h>
 #include <math.h>
-
-#define UPWARDS (1 + 1e-6f)
 
 /* g(f) = (f - cut)+ / (1 - n cut), at most 1: n shares that come to 1 lose n cut at most. Valid for cut < 1/n. */
 static double cut_all(double f, double cut, double nozzles)
@@ -33,14 +32,14 @@ static void add(sp_valid_inequalities *inequalities, const double values[SP_INEQ
     size_t kind = inequalities->kinds++;
     float *own = inequalities->value[kind];
     for (size_t i = 0; i <= SP_INEQUALITY_LEVELS; i++)
-        own[i] = fminf(1, (float)values[i] * UPWARDS);
+        own[i] = fminf(1, (float)values[i] * (float)SP_UPWARDS_SINGLE);
     own[0] = 0;
     /* a share of 1 must count whole: all inequalities are valid by that */
     assert(inequalities->kinds <= SP_INEQUALITY_KINDS && own[SP_INEQUALITY_LEVELS] == 1);
     for (size_t i = 1; i <= SP_INEQUALITY_LEVELS; i++) {
         assert(own[i] >= own[i - 1]);
-        inequalities->steep[kind] =
-            fmaxf(inequalities->steep[kind], own[i] * (float)SP_INEQUALITY_LEVELS / (float)i * UPWARDS);
+        inequalities->steep[kind] = fmaxf(inequalities->steep[kind],
+                                          own[i] * (float)SP_INEQUALITY_LEVELS / (float)i * (float)SP_UPWARDS_SINGLE);
     }
 }
 

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_MOUNTS_H
 #define OPTIMIZER_MOUNTS_H
 
-#include "mounts/holds.h"
+#include "mounts/mount_geometry.h"
 
 /* A mounting point inside the cavity and clear of walls. */
 typedef struct {
@@ -16,12 +16,6 @@ typedef struct {
     size_t count, capacity;
     sp_site *items;
 } sp_sites;
-
-/* Nozzles that a mount takes, besides kept ones elsewhere than in ports. */
-static inline size_t sp_mount_room(const sp_mount *mount)
-{
-    return mount->kind == SP_MOUNT_PORT ? 1 : mount->most ? mount->most : SIZE_MAX;
-}
 
 /* All mounting points in the mounts' order. Fails with SP_ERROR_INPUT where none is inside and clear. */
 bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error);

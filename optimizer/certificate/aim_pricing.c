@@ -2,17 +2,17 @@
 
 #include "certificate/pose_price.h"
 #include "certificate/pose_rows.h"
+#include "bound/rounding.h"
 #include "nozzle/strength.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 #include "scoring/scoring.h"
 
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
-#define CLOSE 1.01         /* a cell's bound over the best known aim's price, that is not worth a split */
-#define CELLS_EACH 20      /* for each candidate, that one pricing looks at, about, and more where these are few */
+#define CLOSE 1.01    /* a cell's bound over the best known aim's price, that is not worth a split */
+#define CELLS_EACH 20 /* for each candidate, that one pricing looks at, about, and more where these are few */
 #define CELLS_MORE 10000
 #define CELLS_MOST 80000
 #define ROWS_AT_A_TIME 200
@@ -218,7 +218,7 @@ static double reach_price(const sp_aim_pricing *pricing, scratch *own, const sp_
     const sp_weight weight = {own->worth, own->total};
     double price;
     search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, 0, &price);
-    return price * UPWARDS;
+    return price * SP_UPWARDS_SWEEP;
 }
 
 /* Turns to what a cell's aims bring at most; false where nothing is seen. */
@@ -266,23 +266,23 @@ static sp_ranks *ranks_of(const sp_aim_pricing *pricing)
 static bool share_open(sp_aim_pricing *pricing, sp_error *error)
 {
     cell_list *open = &pricing->open;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; sp_ranks_count(ranks_of(pricing)) > 1 && i < open->count; i++)
         if (sp_ranks_mine(ranks_of(pricing), open->items[i].cell.site)) {
-            sp_tell(&told, &open->items[i].cell.upper, sizeof(double));
-            sp_tell(&told, &open->items[i].middle, sizeof(double));
+            sp_pack(&outgoing, &open->items[i].cell.upper, sizeof(double));
+            sp_pack(&outgoing, &open->items[i].middle, sizeof(double));
         }
-    if (!sp_ranks_gather(ranks_of(pricing), "aims", &told, &heard, error))
+    if (!sp_ranks_gather(ranks_of(pricing), "aims", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < open->count; i++) {
         entry *cell = &open->items[i];
         if (sp_ranks_mine(ranks_of(pricing), cell->cell.site))
             continue;
-        sp_hear(&heard, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->cell.upper, sizeof(double));
-        sp_hear(&heard, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->middle, sizeof(double));
+        sp_unpack(&gathered, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->cell.upper, sizeof(double));
+        sp_unpack(&gathered, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->middle, sizeof(double));
     }
-    sp_heard_free(&heard);
+    sp_gathered_free(&gathered);
     return true;
 }
 

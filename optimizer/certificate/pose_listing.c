@@ -1,7 +1,7 @@
 #include "certificate/pose_listing.h"
 #include "certificate/pose_price.h"
 #include "certificate/pose_rows.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -22,18 +22,18 @@ bool sp_pose_share_prices(sp_pose_pricing *pricing, float *price, bool bests, sp
 {
     const sp_pose_order *order = pricing->order;
     size_t variants = pricing->search->candidates->variant_count, cells = pricing->search->sites->count * variants;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; sp_ranks_count(sp_pose_ranks(pricing)) > 1 && i < cells; i++) {
         if (!sp_ranks_mine(sp_pose_ranks(pricing), i / variants))
             continue;
         const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
         if (price && block)
-            sp_tell(&told, price + block->start, (block[1].start - block->start) * sizeof *price);
+            sp_pack(&outgoing, price + block->start, (block[1].start - block->start) * sizeof *price);
         if (bests)
-            sp_tell(&told, &pricing->bests[i], sizeof pricing->bests[i]);
+            sp_pack(&outgoing, &pricing->bests[i], sizeof pricing->bests[i]);
     }
-    if (!sp_ranks_gather(sp_pose_ranks(pricing), "prices", &told, &heard, error))
+    if (!sp_ranks_gather(sp_pose_ranks(pricing), "prices", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < cells; i++) {
         size_t rank = sp_ranks_owner(sp_pose_ranks(pricing), i / variants);
@@ -41,11 +41,11 @@ bool sp_pose_share_prices(sp_pose_pricing *pricing, float *price, bool bests, sp
             continue;
         const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
         if (price && block)
-            sp_hear(&heard, rank, price + block->start, (block[1].start - block->start) * sizeof *price);
+            sp_unpack(&gathered, rank, price + block->start, (block[1].start - block->start) * sizeof *price);
         if (bests)
-            sp_hear(&heard, rank, &pricing->bests[i], sizeof pricing->bests[i]);
+            sp_unpack(&gathered, rank, &pricing->bests[i], sizeof pricing->bests[i]);
     }
-    sp_heard_free(&heard);
+    sp_gathered_free(&gathered);
     return true;
 }
 

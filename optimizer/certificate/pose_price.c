@@ -1,7 +1,7 @@
 #include "certificate/pose_price.h"
 #include "certificate/pose_rows.h"
+#include "bound/rounding.h"
 
-#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define SURELY (1 + 1e-5f) /* flux over threshold, from which a cell covers its part and brings others nothing */
 #define HARDLY (1 - 1e-5f) /* the same, up to which it does not cover */
 
@@ -52,7 +52,7 @@ static double row_price(const sp_pose_scratch *own, size_t count)
 {
     size_t start[] = {0, count};
     sp_rows row = {.count = 1, .start = start, .texel = own->texels, .share = own->shares};
-    return sp_rows_price(&row, 0, own->multipliers) * UPWARDS;
+    return sp_rows_price(&row, 0, own->multipliers) * SP_UPWARDS_SWEEP;
 }
 
 /* The price of the pose's own row: what runs down comes from everywhere above, which no bin knows. */
@@ -77,8 +77,9 @@ double sp_pose_price(const sp_pose_pricing *pricing, const sp_pose_scratch *own,
     sp_outline_turn(&region->outline, &frame);
     if (pricing->film_need)
         return field_price_of(pricing, own, &search->candidates->variants[pose.variant], region);
-    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS, &price);
-    return price * UPWARDS;
+    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / SP_UPWARDS_SWEEP,
+                        &price);
+    return price * SP_UPWARDS_SWEEP;
 }
 
 double sp_pose_price_most(const sp_pose_scratch *own)
@@ -86,5 +87,5 @@ double sp_pose_price_most(const sp_pose_scratch *own)
     double sum = 0;
     for (size_t b = 0; b < SP_BINS; b++)
         sum += (double)own->total[b];
-    return sum * UPWARDS;
+    return sum * SP_UPWARDS_SWEEP;
 }

@@ -3,7 +3,7 @@
 #include "certificate/pose_price.h"
 #include "certificate/pose_rows.h"
 #include "ranking/ranking.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <omp.h>
 #include <stdlib.h>

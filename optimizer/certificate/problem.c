@@ -3,6 +3,7 @@
 #include "certificate/pose_listing.h"
 #include "certificate/pose_pricer.h"
 #include "certificate/pose_rows.h"
+#include "scoring/mount_capacity.h"
 #include "scoring/scoring.h"
 
 #include <math.h>
@@ -98,7 +99,7 @@ static bool set_tiers(sp_problem *p, sp_error *error)
             p->tier_of[m * variants + k] =
                 tier_for(p, sp_outlay_at(search, (uint32_t)m, search->candidates->variants[k].flow));
     for (size_t m = 0; m < mounts; m++)
-        p->ports[m] = sp_mount_room(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
+        p->ports[m] = sp_mount_capacity(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
     return true;
 }
 

@@ -2,7 +2,7 @@
 
 #include "clock.h"
 #include "mesh/grow.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <math.h>
 #include <omp.h>

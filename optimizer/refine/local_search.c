@@ -2,7 +2,7 @@
 
 #include "scoring/prepare.h"
 #include "refine/compass.h"
-#include "scoring/partial_told.h"
+#include "scoring/partial_packing.h"
 #include "scoring/scoring.h"
 #include "search/walk.h"
 
@@ -318,23 +318,23 @@ static bool for_each(const sp_local_search *local, sp_trial *trials, size_t coun
     return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
 
-/* What the others' trials came to on few patches: nothing where that is not heard. */
+/* What the others' trials came to on few patches: nothing where that does not come. */
 static bool share_merits(const sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
     sp_ranks *ranks = ranks_of(local);
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; i < count; i++)
         if (sp_ranks_mine(ranks, i)) {
-            sp_tell(&told, &trials[i].better, sizeof trials[i].better);
-            sp_tell(&told, &trials[i].covered, sizeof trials[i].covered);
+            sp_pack(&outgoing, &trials[i].better, sizeof trials[i].better);
+            sp_pack(&outgoing, &trials[i].covered, sizeof trials[i].covered);
         }
-    if (!sp_ranks_gather(ranks, "merits", &told, &heard, error))
+    if (!sp_ranks_gather(ranks, "merits", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < count; i++)
-        if (!sp_ranks_mine(ranks, i) && sp_hear(&heard, sp_ranks_owner(ranks, i), &trials[i].better, sizeof(bool)))
-            sp_hear(&heard, sp_ranks_owner(ranks, i), &trials[i].covered, sizeof(double));
-    sp_heard_free(&heard);
+        if (!sp_ranks_mine(ranks, i) && sp_unpack(&gathered, sp_ranks_owner(ranks, i), &trials[i].better, sizeof(bool)))
+            sp_unpack(&gathered, sp_ranks_owner(ranks, i), &trials[i].covered, sizeof(double));
+    sp_gathered_free(&gathered);
     return true;
 }
 
@@ -343,18 +343,18 @@ static bool share_partials(const sp_local_search *local, sp_trial *trials, size_
 {
     const sp_search *search = local->search;
     sp_ranks *ranks = ranks_of(local);
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            sp_tell_partial(search, &trials[i].partial, &told);
-    if (!sp_ranks_gather(ranks, "trials", &told, &heard, error))
+            sp_pack_partial(search, &trials[i].partial, &outgoing);
+    if (!sp_ranks_gather(ranks, "trials", &outgoing, &gathered, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            done = sp_hear_partial(search, &heard, sp_ranks_owner(ranks, i), &trials[i].partial, error);
-    sp_heard_free(&heard);
+            done = sp_unpack_partial(search, &gathered, sp_ranks_owner(ranks, i), &trials[i].partial, error);
+    sp_gathered_free(&gathered);
     return done;
 }
 

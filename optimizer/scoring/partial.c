@@ -3,6 +3,7 @@
 #include "mesh/grow.h"
 #include "scoring/field.h"
 #include "scoring/footprints.h"
+#include "scoring/mount_capacity.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -222,10 +223,8 @@ bool sp_partial_affords(const sp_search *search, const sp_partial *partial, uint
 
 bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount)
 {
-    if (search->options->max_nozzles && search->kept_count + partial->count >= search->options->max_nozzles)
-        return false;
-    size_t room = search->port_taken[mount] ? 0 : sp_mount_room(&search->options->mounts[mount]);
-    for (size_t i = 0; room > 0 && room <= partial->count && i < partial->count; i++)
-        room -= partial->items[i].site.mount == mount;
-    return room > 0;
+    size_t capacity = sp_mount_left(search, mount), there = 0;
+    for (size_t i = 0; capacity <= partial->count && i < partial->count; i++)
+        there += partial->items[i].site.mount == mount;
+    return there < capacity && sp_number_allows(search, partial->count);
 }

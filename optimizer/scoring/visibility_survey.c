@@ -1,6 +1,6 @@
 #include "scoring/visibility_work.h"
 
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <stdlib.h>
 
@@ -123,29 +123,29 @@ static bool is_mine(const sp_survey *survey, size_t at)
 static bool share_batch(sp_survey *survey, size_t first, size_t end, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = first; sp_ranks_count(ranks_of(survey)) > 1 && i < end; i++) {
         size_t at = view_at(survey, i);
         if (!is_mine(survey, at))
             continue;
-        sp_tell(&told, &survey->sizes[at], sizeof survey->sizes[at]);
-        sp_tell(&told, &survey->cells[at], sizeof survey->cells[at]);
-        sp_tell(&told, &survey->any_marked[at], sizeof survey->any_marked[at]);
-        sp_tell(&told, sp_visibility_sights(visibility, at), visibility->sight_bytes);
-        sp_tell(&told, &visibility->known[at], sizeof visibility->known[at]);
+        sp_pack(&outgoing, &survey->sizes[at], sizeof survey->sizes[at]);
+        sp_pack(&outgoing, &survey->cells[at], sizeof survey->cells[at]);
+        sp_pack(&outgoing, &survey->any_marked[at], sizeof survey->any_marked[at]);
+        sp_pack(&outgoing, sp_visibility_sights(visibility, at), visibility->sight_bytes);
+        sp_pack(&outgoing, &visibility->known[at], sizeof visibility->known[at]);
     }
-    if (!sp_ranks_gather(ranks_of(survey), "views", &told, &heard, error))
+    if (!sp_ranks_gather(ranks_of(survey), "views", &outgoing, &gathered, error))
         return false;
     for (size_t i = first; i < end; i++) {
         size_t at = view_at(survey, i), rank = sp_ranks_owner(ranks_of(survey), at / visibility->launch_count);
-        if (!is_mine(survey, at) && sp_hear(&heard, rank, &survey->sizes[at], sizeof survey->sizes[at]) &&
-            sp_hear(&heard, rank, &survey->cells[at], sizeof survey->cells[at]) &&
-            sp_hear(&heard, rank, &survey->any_marked[at], sizeof survey->any_marked[at]) &&
-            sp_hear(&heard, rank, sp_visibility_sights(visibility, at), visibility->sight_bytes))
-            sp_hear(&heard, rank, &visibility->known[at], sizeof visibility->known[at]);
+        if (!is_mine(survey, at) && sp_unpack(&gathered, rank, &survey->sizes[at], sizeof survey->sizes[at]) &&
+            sp_unpack(&gathered, rank, &survey->cells[at], sizeof survey->cells[at]) &&
+            sp_unpack(&gathered, rank, &survey->any_marked[at], sizeof survey->any_marked[at]) &&
+            sp_unpack(&gathered, rank, sp_visibility_sights(visibility, at), visibility->sight_bytes))
+            sp_unpack(&gathered, rank, &visibility->known[at], sizeof visibility->known[at]);
     }
-    sp_heard_free(&heard);
+    sp_gathered_free(&gathered);
     return true;
 }
 

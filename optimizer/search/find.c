@@ -1,7 +1,7 @@
 #include "search/find.h"
 
 #include "scoring/prepare.h"
-#include "scoring/partial_told.h"
+#include "scoring/partial_packing.h"
 #include "search/fewest.h"
 #include "search/partial_enumeration.h"
 #include "search/walk.h"
@@ -147,18 +147,19 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_partia
 static bool share_partials(const sp_finding *finding, sp_partial *partials, size_t count)
 {
     sp_ranks *ranks = ranks_of(finding);
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i))
-            sp_tell_partial(finding->search, &partials[i], &told);
-    if (!sp_ranks_gather(ranks, "walks", &told, &heard, finding->error))
+            sp_pack_partial(finding->search, &partials[i], &outgoing);
+    if (!sp_ranks_gather(ranks, "walks", &outgoing, &gathered, finding->error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i))
-            done = sp_hear_partial(finding->search, &heard, sp_ranks_owner(ranks, i), &partials[i], finding->error);
-    sp_heard_free(&heard);
+            done =
+                sp_unpack_partial(finding->search, &gathered, sp_ranks_owner(ranks, i), &partials[i], finding->error);
+    sp_gathered_free(&gathered);
     return done;
 }
 

@@ -1,7 +1,7 @@
 #include "search/front.h"
 
 #include "mesh/grow.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -150,19 +150,19 @@ bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, cons
                             size_t count, sp_front_point *points, sp_error *error)
 {
     sp_ranks *ranks = search->options->run.ranks;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     if (!measure_own(front, search, partials, count, points, error))
         return false;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (partials[i] && sp_ranks_mine(ranks, i))
-            sp_tell(&told, &points[i], sizeof points[i]);
-    if (!sp_ranks_gather(ranks, "points", &told, &heard, error))
+            sp_pack(&outgoing, &points[i], sizeof points[i]);
+    if (!sp_ranks_gather(ranks, "points", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < count; i++)
         if (partials[i] && !sp_ranks_mine(ranks, i))
-            sp_hear(&heard, sp_ranks_owner(ranks, i), &points[i], sizeof points[i]);
-    sp_heard_free(&heard);
+            sp_unpack(&gathered, sp_ranks_owner(ranks, i), &points[i], sizeof points[i]);
+    sp_gathered_free(&gathered);
     return true;
 }
 

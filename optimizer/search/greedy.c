@@ -1,7 +1,7 @@
 #include "search/greedy.h"
 
 #include "ranking/ranking.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -175,17 +175,18 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
 static bool share_bests(sp_rounds *rounds, sp_error *error)
 {
     size_t variants = rounds->search->candidates->variant_count, count = rounds->search->sites->count * variants;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = 0; i < count; i++)
         if (sp_ranks_mine(ranks_of(rounds), i / variants))
-            sp_tell(&told, &rounds->best[i], sizeof rounds->best[i]);
-    if (!sp_ranks_gather(ranks_of(rounds), "round", &told, &heard, error))
+            sp_pack(&outgoing, &rounds->best[i], sizeof rounds->best[i]);
+    if (!sp_ranks_gather(ranks_of(rounds), "round", &outgoing, &gathered, error))
         return false;
     for (size_t i = 0; i < count; i++)
         if (!sp_ranks_mine(ranks_of(rounds), i / variants))
-            sp_hear(&heard, sp_ranks_owner(ranks_of(rounds), i / variants), &rounds->best[i], sizeof rounds->best[i]);
-    sp_heard_free(&heard);
+            sp_unpack(&gathered, sp_ranks_owner(ranks_of(rounds), i / variants), &rounds->best[i],
+                      sizeof rounds->best[i]);
+    sp_gathered_free(&gathered);
     return true;
 }
 

@@ -1,5 +1,7 @@
 #include "search/lineup.h"
 
+#include "scoring/mount_capacity.h"
+
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -110,12 +112,11 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i)
 static bool has_place(const sp_lineup *lineup, size_t row)
 {
     const sp_coverage_matrix *matrix = lineup->matrix;
-    const sp_place_options *options = matrix->search->options;
     uint32_t mount = sp_coverage_matrix_mount(matrix, row);
-    size_t room = matrix->search->port_taken[mount] ? 0 : sp_mount_room(&options->mounts[mount]);
-    for (size_t i = 0; room > 0 && room <= lineup->count && i < lineup->count; i++)
-        room -= sp_coverage_matrix_mount(matrix, lineup->row[i]) == mount;
-    return room > 0;
+    size_t capacity = sp_mount_left(matrix->search, mount), there = 0;
+    for (size_t i = 0; capacity <= lineup->count && i < lineup->count; i++)
+        there += sp_coverage_matrix_mount(matrix, lineup->row[i]) == mount;
+    return there < capacity;
 }
 
 static bool affords(const sp_lineup *lineup, size_t row, double budget)
@@ -127,8 +128,7 @@ static bool affords(const sp_lineup *lineup, size_t row, double budget)
 
 static bool has_number(const sp_lineup *lineup)
 {
-    size_t limit = lineup->matrix->search->options->max_nozzles;
-    return lineup->count < SP_LINEUP_MOST && (!limit || lineup->matrix->search->kept_count + lineup->count < limit);
+    return lineup->count < SP_LINEUP_MOST && sp_number_allows(lineup->matrix->search, lineup->count);
 }
 
 static sp_left_over left_at(const sp_lineup *lineup, float credit, size_t p)

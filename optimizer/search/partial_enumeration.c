@@ -1,7 +1,7 @@
 #include "search/partial_enumeration.h"
 
 #include "ranking/ranking.h"
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -127,38 +127,38 @@ static sp_ranks *ranks_of(const enumeration *e)
     return e->deadline->run.ranks;
 }
 
-static void tell_path(const path *p, sp_told *told)
+static void tell_path(const path *p, sp_outgoing *outgoing)
 {
-    sp_tell(told, &p->count, sizeof p->count);
-    sp_tell(told, p->row, p->count * sizeof *p->row);
-    sp_tell(told, p->outlay, p->count * sizeof *p->outlay);
-    sp_tell(told, p->covered, p->count * sizeof *p->covered);
+    sp_pack(outgoing, &p->count, sizeof p->count);
+    sp_pack(outgoing, p->row, p->count * sizeof *p->row);
+    sp_pack(outgoing, p->outlay, p->count * sizeof *p->outlay);
+    sp_pack(outgoing, p->covered, p->count * sizeof *p->covered);
 }
 
-static void hear_path(sp_heard *heard, size_t rank, path *p)
+static void hear_path(sp_gathered *gathered, size_t rank, path *p)
 {
     size_t count;
-    if (sp_hear(heard, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
-        sp_hear(heard, rank, p->row, count * sizeof *p->row) &&
-        sp_hear(heard, rank, p->outlay, count * sizeof *p->outlay) &&
-        sp_hear(heard, rank, p->covered, count * sizeof *p->covered))
+    if (sp_unpack(gathered, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
+        sp_unpack(gathered, rank, p->row, count * sizeof *p->row) &&
+        sp_unpack(gathered, rank, p->outlay, count * sizeof *p->outlay) &&
+        sp_unpack(gathered, rank, p->covered, count * sizeof *p->covered))
         p->count = count;
 }
 
 /* What the others' paths have become. */
 static bool share_paths(enumeration *e, size_t from, sp_error *error)
 {
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     for (size_t i = from; i < e->path_count; i++)
         if (sp_ranks_mine(ranks_of(e), i))
-            tell_path(&e->paths[i], &told);
-    if (!sp_ranks_gather(ranks_of(e), "paths", &told, &heard, error))
+            tell_path(&e->paths[i], &outgoing);
+    if (!sp_ranks_gather(ranks_of(e), "paths", &outgoing, &gathered, error))
         return false;
     for (size_t i = from; i < e->path_count; i++)
         if (!sp_ranks_mine(ranks_of(e), i))
-            hear_path(&heard, sp_ranks_owner(ranks_of(e), i), &e->paths[i]);
-    sp_heard_free(&heard);
+            hear_path(&gathered, sp_ranks_owner(ranks_of(e), i), &e->paths[i]);
+    sp_gathered_free(&gathered);
     return true;
 }
 
@@ -261,8 +261,8 @@ static void improve(const enumeration *e, size_t b, sp_lineup *own, sp_lineup *s
 static bool improve_all(const enumeration *e, sp_lineup *lineups, sp_error *error)
 {
     sp_ranks *ranks = ranks_of(e);
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     sp_ranks_part(ranks);
 #pragma omp parallel for num_threads(e->threads) schedule(dynamic, 1)
     for (size_t b = 0; b < e->count; b++) {
@@ -273,19 +273,19 @@ static bool improve_all(const enumeration *e, sp_lineup *lineups, sp_error *erro
     sp_ranks_rejoin(ranks);
     for (size_t b = 0; b < e->count; b++)
         if (sp_ranks_mine(ranks, b)) {
-            sp_tell(&told, &lineups[b].count, sizeof lineups[b].count);
-            sp_tell(&told, lineups[b].row, lineups[b].count * sizeof *lineups[b].row);
+            sp_pack(&outgoing, &lineups[b].count, sizeof lineups[b].count);
+            sp_pack(&outgoing, lineups[b].row, lineups[b].count * sizeof *lineups[b].row);
         }
-    if (!sp_ranks_gather(ranks, "enumeration", &told, &heard, error))
+    if (!sp_ranks_gather(ranks, "enumeration", &outgoing, &gathered, error))
         return false;
     for (size_t b = 0; b < e->count; b++) {
         uint32_t row[SP_LINEUP_MOST];
         size_t count, rank = sp_ranks_owner(ranks, b);
-        if (!sp_ranks_mine(ranks, b) && sp_hear(&heard, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
-            sp_hear(&heard, rank, row, count * sizeof *row))
+        if (!sp_ranks_mine(ranks, b) && sp_unpack(&gathered, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
+            sp_unpack(&gathered, rank, row, count * sizeof *row))
             sp_lineup_set(&lineups[b], row, count);
     }
-    sp_heard_free(&heard);
+    sp_gathered_free(&gathered);
     return true;
 }
 

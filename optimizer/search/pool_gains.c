@@ -1,6 +1,6 @@
 #include "search/pool_gains.h"
 
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 #include "scoring/scoring.h"
@@ -241,26 +241,26 @@ static bool allowed(const sp_search *search, const sp_partial *partial, sp_pose 
 static bool share_scores(const sp_search *search, sp_pool_gains *gains, sp_error *error)
 {
     sp_ranks *ranks = search->options->run.ranks;
-    sp_told told = {0};
-    sp_heard heard;
+    sp_outgoing outgoing = {0};
+    sp_gathered gathered;
     uint32_t count = 0;
     if (sp_ranks_count(ranks) == 1)
         return true;
     for (size_t i = 0; i < gains->pool->count; i++)
         count += gains->score[i] > 0;
-    sp_tell(&told, &count, sizeof count);
+    sp_pack(&outgoing, &count, sizeof count);
     for (uint32_t i = 0; i < gains->pool->count; i++)
         if (gains->score[i] > 0) {
-            sp_tell(&told, &i, sizeof i);
-            sp_tell(&told, &gains->score[i], sizeof gains->score[i]);
+            sp_pack(&outgoing, &i, sizeof i);
+            sp_pack(&outgoing, &gains->score[i], sizeof gains->score[i]);
         }
-    if (!sp_ranks_gather(ranks, "scores", &told, &heard, error))
+    if (!sp_ranks_gather(ranks, "scores", &outgoing, &gathered, error))
         return false;
-    for (size_t rank = 0; rank < heard.count; rank++)
-        for (uint32_t i, k = sp_hear(&heard, rank, &count, sizeof count) ? count : 0; k > 0; k--)
-            if (sp_hear(&heard, rank, &i, sizeof i) && i < gains->pool->count)
-                sp_hear(&heard, rank, &gains->score[i], sizeof gains->score[i]);
-    sp_heard_free(&heard);
+    for (size_t rank = 0; rank < gathered.count; rank++)
+        for (uint32_t i, k = sp_unpack(&gathered, rank, &count, sizeof count) ? count : 0; k > 0; k--)
+            if (sp_unpack(&gathered, rank, &i, sizeof i) && i < gains->pool->count)
+                sp_unpack(&gathered, rank, &gains->score[i], sizeof gains->score[i]);
+    sp_gathered_free(&gathered);
     return true;
 }
 

@@ -78,19 +78,19 @@ static bool is_anticlockwise(const double uv[3][2])
     return (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) > (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]);
 }
 
-static sp_outline outline_of(const search *s, const uint32_t *list, size_t count)
+static sp_boundary_test outline_of(const search *s, const uint32_t *list, size_t count)
 {
     size_t segments = 0;
     uint32_t points = 0;
     for (size_t i = 0; i < count; i++)
         if (!is_anticlockwise((const double(*)[2])s->atlas->uv[list[i]]))
-            return (sp_outline){.memory = true};
+            return (sp_boundary_test){.memory = true};
     for (size_t i = 0; i < count; i++)
         for (uint32_t h = 3 * list[i]; h < 3 * list[i] + 3; h++)
             if (!is_whole(s, h))
                 s->segments[segments++] = (sp_segment){number_of(s, h, &points), number_of(s, sp_around(h), &points),
                                                        corner(s, h), corner(s, sp_around(h))};
-    sp_outline outline = sp_find_outline(s->segments, segments, points);
+    sp_boundary_test outline = sp_test_boundary(s->segments, segments, points);
     for (size_t i = 0; i < count; i++)
         for (uint32_t h = 3 * list[i]; h < 3 * list[i] + 3; h++)
             s->number[sp_linked(s->link, h)] = SP_NONE;
@@ -117,7 +117,7 @@ static bool look_through(const search *s, size_t most, sp_overlaps *found, sp_er
         size_t count = s->start[c + 1] - s->start[c];
         if (count < 2)
             continue;
-        sp_outline outline = outline_of(s, list, count);
+        sp_boundary_test outline = outline_of(s, list, count);
         found->tests += outline.tests;
         if (!outline.memory)
             return sp_fail_memory(error);

@@ -26,7 +26,7 @@ typedef enum {
     SP_LIVE_UV,          /* double [triangles][3][2], as sp_atlas */
     SP_LIVE_CHART_PAGE,  /* uint32_t [charts] */
     SP_LIVE_CHART_TEXEL, /* double [charts], m */
-    SP_LIVE_SIDES,       /* uint8_t [triangles], as sp_wet_told, as the next two */
+    SP_LIVE_SIDES,       /* uint8_t [triangles], as sp_wet_arrays, as the next two */
     SP_LIVE_NODES,       /* uint8_t */
     SP_LIVE_CUTS,        /* double [][3] */
     SP_LIVE_TYPES,       /* double [types][SP_LIVE_TYPE_NUMBERS], see numbers.h */

@@ -2,7 +2,7 @@
  * these stay: once it is known, a turn, a roll, another angle or flow, or a type that is as fast, traces nothing. */
 #include "live/state.h"
 
-#include "spray/bodies.h"
+#include "spray/nozzle_bodies.h"
 
 #include <stdlib.h>
 #include <string.h>

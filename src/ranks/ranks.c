@@ -1,4 +1,4 @@
-#include "ranks/gather.h"
+#include "ranks/messages.h"
 
 #include "mesh/grow.h"
 #include "module/module.h"
@@ -188,26 +188,27 @@ void sp_ranks_leave(sp_ranks *ranks)
     free(ranks);
 }
 
-void sp_tell(sp_told *told, const void *bytes, size_t size)
+void sp_pack(sp_outgoing *outgoing, const void *bytes, size_t size)
 {
-    told->lacks_memory = told->lacks_memory || !sp_grow(&told->bytes, &told->capacity, told->count + size, 1);
-    if (told->lacks_memory || !size)
+    outgoing->lacks_memory =
+        outgoing->lacks_memory || !sp_grow(&outgoing->bytes, &outgoing->capacity, outgoing->count + size, 1);
+    if (outgoing->lacks_memory || !size)
         return;
-    memcpy(told->bytes + told->count, bytes, size);
-    told->count += size;
+    memcpy(outgoing->bytes + outgoing->count, bytes, size);
+    outgoing->count += size;
 }
 
-void sp_told_free(sp_told *told)
+void sp_outgoing_free(sp_outgoing *outgoing)
 {
-    free(told->bytes);
-    *told = (sp_told){0};
+    free(outgoing->bytes);
+    *outgoing = (sp_outgoing){0};
 }
 
-void sp_heard_free(sp_heard *heard)
+void sp_gathered_free(sp_gathered *gathered)
 {
-    free(heard->at);
-    free(heard->bytes);
-    *heard = (sp_heard){0};
+    free(gathered->at);
+    free(gathered->bytes);
+    *gathered = (sp_gathered){0};
 }
 
 /* After the roll all wait for what was announced: whoever has no memory for it cannot say so any more. */
@@ -217,53 +218,54 @@ static void give_up(const sp_ranks *ranks)
 }
 
 /* What all have announced, by word. */
-static bool receive(sp_ranks *ranks, const sp_told *told, sp_heard *heard, sp_error *error)
+static bool receive(sp_ranks *ranks, const sp_outgoing *outgoing, sp_gathered *gathered, sp_error *error)
 {
     size_t words = 0, *counts = malloc(ranks->count * sizeof *counts);
-    heard->at = malloc(2 * ranks->count * sizeof *heard->at);
-    for (size_t i = 0; counts && heard->at && i < ranks->count; i++) {
+    gathered->at = malloc(2 * ranks->count * sizeof *gathered->at);
+    for (size_t i = 0; counts && gathered->at && i < ranks->count; i++) {
         counts[i] = (size_t)ranks->notices[i].words;
-        heard->at[i] = 8 * words;
+        gathered->at[i] = 8 * words;
         words += counts[i];
-        heard->at[ranks->count + i] = 8 * words;
+        gathered->at[ranks->count + i] = 8 * words;
     }
-    heard->bytes = malloc(8 * words + 8);
-    if (!counts || !heard->at || !heard->bytes)
+    gathered->bytes = malloc(8 * words + 8);
+    if (!counts || !gathered->at || !gathered->bytes)
         give_up(ranks);
-    heard->end = heard->at + ranks->count;
-    bool there = !words || ranks->mpi->gather_words((const uint64_t *)(const void *)told->bytes, counts,
-                                                    (uint64_t *)(void *)heard->bytes, ranks->ends);
+    gathered->end = gathered->at + ranks->count;
+    bool there = !words || ranks->mpi->gather_words((const uint64_t *)(const void *)outgoing->bytes, counts,
+                                                    (uint64_t *)(void *)gathered->bytes, ranks->ends);
     free(counts);
     if (there) {
-        heard->count = ranks->count;
+        gathered->count = ranks->count;
         return true;
     }
-    sp_heard_free(heard);
+    sp_gathered_free(gathered);
     ranks->mute = true;
     return lose(ranks, error);
 }
 
-bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_told *told, sp_heard *heard, sp_error *error)
+bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_outgoing *outgoing, sp_gathered *gathered, sp_error *error)
 {
-    *heard = (sp_heard){0};
+    *gathered = (sp_gathered){0};
     bool done = true;
     if (sp_ranks_count(ranks) > 1) {
         static const unsigned char padding[8] = {0};
-        sp_tell(told, padding, (8 - told->count % 8) % 8);
-        done = !told->lacks_memory || sp_fail_memory(error);
-        done = done &&
-               call_roll(ranks, &(notice){.call = name_call(what, ranks->calls++), .words = told->count / 8}, error);
-        done = done && (sp_ranks_lost(ranks) || receive(ranks, told, heard, error));
+        sp_pack(outgoing, padding, (8 - outgoing->count % 8) % 8);
+        done = !outgoing->lacks_memory || sp_fail_memory(error);
+        done =
+            done &&
+            call_roll(ranks, &(notice){.call = name_call(what, ranks->calls++), .words = outgoing->count / 8}, error);
+        done = done && (sp_ranks_lost(ranks) || receive(ranks, outgoing, gathered, error));
     }
-    sp_told_free(told);
+    sp_outgoing_free(outgoing);
     return done;
 }
 
-bool sp_hear(sp_heard *heard, size_t rank, void *bytes, size_t size)
+bool sp_unpack(sp_gathered *gathered, size_t rank, void *bytes, size_t size)
 {
-    if (rank >= heard->count || size > heard->end[rank] - heard->at[rank])
+    if (rank >= gathered->count || size > gathered->end[rank] - gathered->at[rank])
         return false;
-    memcpy(bytes, heard->bytes + heard->at[rank], size);
-    heard->at[rank] += size;
+    memcpy(bytes, gathered->bytes + gathered->at[rank], size);
+    gathered->at[rank] += size;
     return true;
 }

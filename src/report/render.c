@@ -40,11 +40,11 @@ typedef struct {
     sp_look_at *look;
     const void *user;
     size_t columns;
-    sp_ray *rays;      /* [BAND columns] */
-    sp_hit *hits;      /* the same */
-    uint32_t *number;  /* the same: the sample that a ray belongs to */
-    sp_sample *sample; /* of the band's first sample */
-    sighting *seen;    /* the same */
+    sp_ray *rays;           /* [BAND columns] */
+    sp_hit *hits;           /* the same */
+    uint32_t *number;       /* the same: the sample that a ray belongs to */
+    sp_seen_sample *sample; /* of the band's first sample */
+    sighting *seen;         /* the same */
 } band;
 
 /* True where the ray is to be traced on. */
@@ -58,7 +58,7 @@ static bool looks_on(const band *b, size_t i)
     uint32_t look = b->look(b->user, hit->triangle, hit->u, hit->v, facing > 0), number = b->number[i];
     if (look != SP_LOOK_NOTHING) {
         /* A light at the eye; weak, because brightness also means flux. */
-        b->sample[number] = (sp_sample){look, (float)(0.7 + 0.3 * fabs(facing))};
+        b->sample[number] = (sp_seen_sample){look, (float)(0.7 + 0.3 * fabs(facing))};
         b->seen[number] = (sighting){hit->triangle, (float)hit->t}; /* the direction's forward component is 1 */
         return false;
     }
@@ -76,7 +76,7 @@ static void aim(const band *b, size_t y, size_t count)
         sp_vec3 direction = sp_camera_direction(camera, 0.5 * (column + 0.5), 0.5 * (row + 0.5));
         b->rays[i] = (sp_ray){camera->eye, direction, from, INFINITY, SP_NONE};
         b->number[i] = (uint32_t)i;
-        b->sample[i] = (sp_sample){SP_LOOK_NOTHING, 1};
+        b->sample[i] = (sp_seen_sample){SP_LOOK_NOTHING, 1};
         b->seen[i] = (sighting){SP_NONE, 0};
     }
 }
@@ -306,7 +306,7 @@ uint8_t *sp_shot_picture(const sp_shot *shot, sp_look_colour *colour, const void
             int sum[3] = {0};
             for (size_t k = 0; k < 4; ++k) {
                 size_t column = 2 * x + k % 2, row = 2 * y + k / 2;
-                const sp_sample *sample = &shot->samples[row * 2 * width + column];
+                const sp_seen_sample *sample = &shot->samples[row * 2 * width + column];
                 const uint8_t *rgb = colour_of(&last, sample->look, stripe_at((int)column, (int)row));
                 for (int c = 0; c < 3; ++c)
                     sum[c] += (uint8_t)((float)rgb[c] * sample->shade + 0.5f);

@@ -13,11 +13,11 @@ typedef uint32_t sp_look_at(const void *user, uint32_t triangle, double u, doubl
 typedef struct {
     uint32_t look;
     float shade; /* brightness, 0 to 1 */
-} sp_sample;
+} sp_seen_sample;
 
 typedef struct {
-    int width, height;  /* pixels; samples are 2 width × 2 height */
-    sp_sample *samples; /* owned */
+    int width, height;       /* pixels; samples are 2 width × 2 height */
+    sp_seen_sample *samples; /* owned */
 } sp_shot;
 
 /* Same samples whatever the number of threads, which are the evaluator's setup's. `look` is called from all of them. */

@@ -2,7 +2,7 @@
 #include <sprayplan/fitting.h>
 
 #include "mesh/distance.h"
-#include "mounts/holds.h"
+#include "mounts/mount_geometry.h"
 #include "nozzle/pattern.h"
 
 #include <stdlib.h>

@@ -76,7 +76,7 @@ static bool visit_chain(const sp_source *source, const sp_target *target, const 
 {
     double end = flight->time - fmax(ends * flight->time, target->moved / sp_length(flight->velocity));
     sp_chain chain = sp_chain_of(source->fronts, source->position, flight);
-    sp_piece piece;
+    sp_arc_piece piece;
     while (sp_chain_next(&chain, &piece)) {
         sp_ray *ray = &piece.ray;
         double time = flight->time - piece.start;

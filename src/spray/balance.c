@@ -1,5 +1,5 @@
 /* Where the liquid ends: on what is to be cleaned, on other surface, outside, or on a way that is not followed. */
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "emitter.h"
 #include "launch.h"
 #include "movers.h"

@@ -1,5 +1,5 @@
 /* What of the surface round-off could judge otherwise. */
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "reach.h"
 
 #include <stdlib.h>

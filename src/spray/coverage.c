@@ -1,5 +1,5 @@
 /* Deposits and the figures drawn from them. */
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "rundown.h"
 
 #include <assert.h>

@@ -13,7 +13,7 @@
  * or to end at a roof. */
 #include <sprayplan/deviation.h>
 
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "emitter.h"
 #include "near.h"
 #include "nozzle/pattern.h"

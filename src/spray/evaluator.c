@@ -1,5 +1,5 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
-#include "choice.h"
+#include "auto_settings.h"
 #include "clock.h"
 #include "movers.h"
 #include "resolution.h"
@@ -173,7 +173,8 @@ static bool build(sp_evaluator *evaluator, const sp_layout *layout, sp_error *er
         return sp_fail_nothing(error);
     if (!(evaluator->fidelity.texel > 0))
         evaluator->fidelity.texel = plain;
-    return (layout && layout->count ? sp_choose(evaluator, layout, error) : sp_texels_create(evaluator, NULL, error)) &&
+    return (layout && layout->count ? sp_auto_settings(evaluator, layout, error)
+                                    : sp_texels_create(evaluator, NULL, error)) &&
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 

@@ -1,7 +1,7 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
-#include "bodies.h"
-#include "bounce.h"
+#include "nozzle_bodies.h"
+#include "reflection.h"
 #include "criterion.h"
 #include "emitter.h"
 #include "launch.h"

@@ -1,5 +1,5 @@
 /* How far the surface is from the tracks of a two-axis head. */
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "nozzle/frame.h"
 #include "nozzle/rotation.h"
 #include "reach.h"

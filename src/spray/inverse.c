@@ -2,7 +2,7 @@
  * spray and the pattern's density there. */
 #include "inverse.h"
 
-#include "bodies.h"
+#include "nozzle_bodies.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -179,7 +179,7 @@ typedef struct {
     sp_vec3 axis; /* of the cone that is asked for */
     double half_angle;
     size_t cells;
-    sp_cell_visitor *visit;
+    sp_near_visitor *visit;
     void *user;
 } cutting;
 
@@ -332,7 +332,7 @@ static void cut_cell(cutting *cut, size_t first, size_t end, double whole)
     }
 }
 
-bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double half_angle, sp_cell_visitor *visit,
+bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double half_angle, sp_near_visitor *visit,
                   void *user)
 {
     cutting cut = {.source = source,

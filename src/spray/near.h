@@ -13,11 +13,11 @@ bool sp_target_is_near_by(const sp_source *source, const sp_target *target, cons
                           double margin);
 
 /* A cell of a patch: where it is judged, and which share of the patch's area it is. */
-typedef void sp_cell_visitor(void *user, const sp_target *target, double part);
+typedef void sp_near_visitor(void *user, const sp_target *target, double part);
 /* Cuts a patch until its cells are not near themselves; their shares come to 1, but for what is out of reach. How it is
  * cut depends on the patch and the source alone; visited are the cells that flights within `half_angle` (rad) of the
  * unit `axis` may come to, and perhaps others. False where memory ran out. */
-bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double half_angle, sp_cell_visitor *visit,
+bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double half_angle, sp_near_visitor *visit,
                   void *user);
 
 #endif

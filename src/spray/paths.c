@@ -1,6 +1,6 @@
 #include "paths.h"
 
-#include "bounce.h"
+#include "reflection.h"
 #include "emitter.h"
 #include "launch.h"
 #include "mesh/grow.h"

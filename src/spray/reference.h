@@ -2,7 +2,7 @@
 #ifndef SPRAY_REFERENCE_H
 #define SPRAY_REFERENCE_H
 
-#include "bodies.h"
+#include "nozzle_bodies.h"
 
 #include <sprayplan/points.h>
 
@@ -13,7 +13,7 @@ struct sp_reference {
     sp_coverage *film;   /* theirs; of the deposits film alone is known */
 };
 
-/* verdict.c: whether what arrives at each point covers it, whatever runs down; [count], the caller's. False where
+/* point_verdict.c: whether what arrives at each point covers it, whatever runs down; [count], the caller's. False where
  * memory ran out. */
 bool sp_judge_sprayed(const sp_reference *reference, const sp_point *points, size_t count, bool *covered);
 

@@ -1,6 +1,6 @@
 #include "resolution.h"
 
-#include "density.h"
+#include "texel_sizes.h"
 #include "movers.h"
 
 #include <stdlib.h>
@@ -65,10 +65,10 @@ double sp_evaluator_jets_met(const sp_evaluator *evaluator)
 }
 
 /* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
-static sp_density_limits density_limits(const sp_evaluator *evaluator)
+static sp_texel_limits density_limits(const sp_evaluator *evaluator)
 {
     const sp_fidelity *fidelity = &evaluator->fidelity;
-    sp_density_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
+    sp_texel_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
     if (fidelity->method == SP_METHOD_INVERSE)
         return limits;
     double jets = fidelity->jets > 0 ? (double)fidelity->jets : AUTO_MOST_JETS;
@@ -107,7 +107,8 @@ static bool cut_patches(sp_evaluator *evaluator, sp_error *error)
 }
 
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
-static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
+static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_sizes *density,
+                        sp_error *error)
 {
     double texel = evaluator->fidelity.texel;
     double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
@@ -191,22 +192,22 @@ static bool lay(sp_evaluator *evaluator, sp_error *error)
 
 bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_error *error)
 {
-    sp_density density;
+    sp_texel_sizes density;
     sp_fidelity *fidelity = &evaluator->fidelity;
-    sp_density_limits limits = density_limits(evaluator);
+    sp_texel_limits limits = density_limits(evaluator);
     sp_texels_free(evaluator);
     if (is_laid(evaluator))
         return lay(evaluator, error);
     if (!evaluator->origin && !make_charts(evaluator, error))
         return false;
-    if (!(fine ? sp_density_like(evaluator, evaluator->charts, fine, &density, error)
-               : sp_density_create(evaluator, evaluator->charts, &limits, &density, error)))
+    if (!(fine ? sp_texel_sizes_like(evaluator, evaluator->charts, fine, &density, error)
+               : sp_texel_sizes_create(evaluator, evaluator->charts, &limits, &density, error)))
         return false;
     if (fidelity->jets == 0)
         fidelity->jets =
             sp_jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
     bool done = build_atlas(evaluator, evaluator->charts, &density, error);
-    sp_density_free(&density);
+    sp_texel_sizes_free(&density);
     return done;
 }
 

@@ -2,7 +2,7 @@
 #ifndef SPRAY_RESTORE_H
 #define SPRAY_RESTORE_H
 
-#include "spray/wet/told.h"
+#include "spray/wet/arrays.h"
 
 /* Takes the atlas, of which chart, chart_page, chart_texel, uv, page_edge and the counts of triangles, charts and pages
  * are given and the rest is made, and the wet sides, as sp_wet_restore makes them. Inverse and without film or goods
@@ -11,7 +11,7 @@
 sp_evaluator *sp_evaluator_restore(const sp_setup *setup, sp_atlas *atlas, sp_wet *wet, sp_error *error);
 /* Whether all of an evaluator that coverage depends on can be restored. */
 bool sp_evaluator_is_simple(const sp_evaluator *evaluator);
-/* As sp_wet_tell. */
-bool sp_evaluator_tell_wet(const sp_evaluator *evaluator, sp_wet_told *told, sp_error *error);
+/* As sp_wet_arrays_create. */
+bool sp_evaluator_tell_wet(const sp_evaluator *evaluator, sp_wet_arrays *told, sp_error *error);
 
 #endif

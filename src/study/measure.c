@@ -17,7 +17,7 @@ static bool judge_points(sp_studying *studying, sp_study *study, sp_error *error
     sp_reference_destroy(reference);
     if (!judged)
         return false;
-    sp_sample sample = sp_sample_of(studying->truth, studying->points);
+    sp_point_mean sample = sp_sample_of(studying->truth, studying->points);
     study->reference = (sp_fidelity){.trajectory = trajectory};
     study->reference_coverage = sample.mean;
     study->reference_spread = sample.spread;
@@ -39,7 +39,7 @@ static sp_fidelity reference_of(const sp_studying *studying, double texel)
 }
 
 /* The mean of what a run differs from the truth so far; its shares, at the points, into `values`. */
-static bool fly(sp_studying *studying, const sp_fidelity *fidelity, const double *truth, sp_sample *sample,
+static bool fly(sp_studying *studying, const sp_fidelity *fidelity, const double *truth, sp_point_mean *sample,
                 sp_error *error)
 {
     sp_setup setup = sp_study_setup(studying, fidelity);
@@ -57,7 +57,7 @@ static bool fly(sp_studying *studying, const sp_fidelity *fidelity, const double
  * points can tell, at the first impact. */
 static bool fly_reference(sp_studying *studying, double texel, sp_study *study, sp_error *error)
 {
-    sp_sample sample;
+    sp_point_mean sample;
     sp_fidelity deep = reference_of(studying, texel), first = deep;
     first.reflections = 0;
     if (!fly(studying, &first, studying->truth, &sample, error))
@@ -89,11 +89,11 @@ static sp_evaluator *prepare(const sp_setup *setup, const sp_layout *layout, sp_
     sp_evaluator *evaluator = NULL;
     do {
         sp_evaluator_destroy(evaluator);
-        sp_moment start = sp_moment_now();
+        sp_clock_reading start = sp_moment_now();
         evaluator = sp_evaluator_create_for(setup, run->chosen ? layout : NULL, error);
         watch.rounds[watch.count++] = sp_moment_since(start);
     } while (evaluator && sp_stopwatch_wants(&watch));
-    sp_moment median = sp_stopwatch_median(&watch);
+    sp_clock_reading median = sp_stopwatch_median(&watch);
     run->speed.prepare = median.wall;
     run->speed.prepare_cpu = median.cpu;
     return evaluator;
@@ -105,11 +105,11 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
     sp_coverage *coverage = NULL;
     do {
         sp_coverage_destroy(coverage);
-        sp_moment start = sp_moment_now();
+        sp_clock_reading start = sp_moment_now();
         coverage = sp_evaluate(evaluator, layout, error);
         watch.rounds[watch.count++] = sp_moment_since(start);
     } while (coverage && sp_stopwatch_wants(&watch));
-    sp_moment median = sp_stopwatch_median(&watch);
+    sp_clock_reading median = sp_stopwatch_median(&watch);
     run->speed.evaluate = median.wall;
     run->speed.evaluate_cpu = median.cpu;
     return coverage;
@@ -128,7 +128,7 @@ bool sp_study_measure(sp_studying *studying, const sp_fidelity *fidelity, const 
     bool good =
         coverage && sp_sample_difference(studying, evaluator, coverage, studying->truth, studying->values, error);
     if (good) {
-        sp_sample sample = sp_sample_of(studying->values, studying->points);
+        sp_point_mean sample = sp_sample_of(studying->values, studying->points);
         run->fidelity = *sp_evaluator_fidelity(evaluator);
         run->texels = sp_evaluator_patches(evaluator)->count;
         run->coverage = coverage->fraction;

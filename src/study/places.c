@@ -92,10 +92,10 @@ static bool search(sp_studying *studying, const sp_evaluator *evaluator, const s
         options.refine = (sp_refine){0};
     sp_study_placing(studying, found->limited ? INFINITY : found->limit);
     sp_proposal *proposal = sp_place(evaluator, &options, error);
-    sp_moment taken = sp_study_placed(studying, &found->ended_early);
+    sp_clock_reading taken = sp_study_placed(studying, &found->ended_early);
     bool good = proposal && confirm(studying, proposal->layout, error);
     if (good) {
-        sp_sample sample = sp_sample_of(studying->values, studying->points);
+        sp_point_mean sample = sp_sample_of(studying->values, studying->points);
         found->nozzles = proposal->layout->count;
         found->water = proposal->coverage->flow;
         found->coverage = proposal->coverage->fraction;
@@ -156,7 +156,7 @@ bool sp_study_run_places(sp_studying *studying, const sp_place_options *place, d
                          sp_error *error)
 {
     plan p = make_plan(studying->setup, place, texel);
-    sp_moment start = sp_moment_now();
+    sp_clock_reading start = sp_moment_now();
     double time = sp_study_left(studying);
     time = isinf(time) ? SECONDS : time;
     study->places = calloc(IN_GROUP * p.count, sizeof *study->places);

@@ -8,7 +8,7 @@
 #define BLOCK 65536 /* points in memory at a time */
 #define UNSEEN 3    /* points that may differ though none was found to, with 95 % confidence */
 
-sp_sample sp_sample_of(const double *values, size_t count)
+sp_point_mean sp_sample_of(const double *values, size_t count)
 {
     double sum = 0, size = 0, scatter = UNSEEN;
     for (size_t i = 0; i + 1 < count; i += 2) {
@@ -18,7 +18,7 @@ sp_sample sp_sample_of(const double *values, size_t count)
         scatter += apart * apart;
     }
     double n = (double)count;
-    return (sp_sample){.mean = sum / n, .spread = 2 * sqrt(scatter) / n, .size = size / n};
+    return (sp_point_mean){.mean = sum / n, .spread = 2 * sqrt(scatter) / n, .size = size / n};
 }
 
 static int threads_of(const sp_studying *studying)

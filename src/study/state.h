@@ -9,17 +9,17 @@
 /* timing.c */
 typedef struct {
     double wall, cpu; /* s */
-} sp_moment;
-sp_moment sp_moment_now(void);
-sp_moment sp_moment_since(sp_moment start);
+} sp_clock_reading;
+sp_clock_reading sp_moment_now(void);
+sp_clock_reading sp_moment_since(sp_clock_reading start);
 enum { SP_STUDY_ROUNDS = 5 };
 typedef struct {
-    sp_moment rounds[SP_STUDY_ROUNDS];
+    sp_clock_reading rounds[SP_STUDY_ROUNDS];
     size_t count;
 } sp_stopwatch;
 /* True while another round is wanted. */
 bool sp_stopwatch_wants(const sp_stopwatch *watch);
-sp_moment sp_stopwatch_median(const sp_stopwatch *watch);
+sp_clock_reading sp_stopwatch_median(const sp_stopwatch *watch);
 
 /* What all parts of a study see. */
 typedef struct {
@@ -27,16 +27,16 @@ typedef struct {
     const sp_layout *layout; /* the scene's own nozzles */
     const sp_evaluator *own; /* on the setup's own settings */
     const sp_study_options *options;
-    sp_moment start;
-    const char *stage; /* what the user is told */
-    double done, step; /* of the stage: so far, and what is under way */
-    sp_moment since;   /* when that began */
-    double expected;   /* s that it will take at most; 0: not known */
-    bool cancelled;    /* the user said so, or the time is over */
-    bool placing;      /* a placement is under way */
-    bool laid, cut;    /* its layout is there; it had no more time */
-    double limit;      /* s that it has */
-    sp_moment began, taken;
+    sp_clock_reading start;
+    const char *stage;      /* what the user is told */
+    double done, step;      /* of the stage: so far, and what is under way */
+    sp_clock_reading since; /* when that began */
+    double expected;        /* s that it will take at most; 0: not known */
+    bool cancelled;         /* the user said so, or the time is over */
+    bool placing;           /* a placement is under way */
+    bool laid, cut;         /* its layout is there; it had no more time */
+    double limit;           /* s that it has */
+    sp_clock_reading began, taken;
     size_t points;
     double *truth;  /* [points]: 0 to 1, what is covered */
     double *values; /* [points], for what is being looked at */
@@ -53,7 +53,7 @@ double sp_study_left(const sp_studying *studying);
 /* A placement begins that has `limit` s, and has ended: what it took until its layout was there. The certificate is not
  * waited for. */
 void sp_study_placing(sp_studying *studying, double limit);
-sp_moment sp_study_placed(sp_studying *studying, bool *ended_early);
+sp_clock_reading sp_study_placed(sp_studying *studying, bool *ended_early);
 
 /* sample.c: values at points in the order of the surface, [studying->points], the caller's. */
 /* The covered share of the patch that holds each point, less what is true of it (`truth` NULL: 0). */
@@ -64,9 +64,9 @@ bool sp_sample_covered(const sp_studying *studying, const sp_reference *referenc
 typedef struct {
     double mean, spread; /* spread: twice the standard error of the mean, from pairs of neighbours (see points.h) */
     double size;         /* mean of the values' sizes */
-} sp_sample;
+} sp_point_mean;
 /* `count` is even. */
-sp_sample sp_sample_of(const double *values, size_t count);
+sp_point_mean sp_sample_of(const double *values, size_t count);
 
 /* grid.c */
 /* True where walls throw liquid back that the setup leaves to be followed. */

@@ -20,7 +20,7 @@ static bool ends_placement(sp_studying *studying, const char *stage)
 {
     if (!studying->placing || studying->laid)
         return studying->placing;
-    sp_moment taken = sp_moment_since(studying->began);
+    sp_clock_reading taken = sp_moment_since(studying->began);
     studying->laid = comes_after(stage);
     studying->cut = !studying->laid && taken.wall > studying->limit;
     if (studying->laid)
@@ -76,7 +76,7 @@ void sp_study_placing(sp_studying *studying, double limit)
     studying->began = sp_moment_now();
 }
 
-sp_moment sp_study_placed(sp_studying *studying, bool *ended_early)
+sp_clock_reading sp_study_placed(sp_studying *studying, bool *ended_early)
 {
     *ended_early = !studying->laid;
     studying->placing = false;

@@ -6,15 +6,15 @@
 
 #define ENOUGH 0.33 /* s after which there is no further round */
 
-sp_moment sp_moment_now(void)
+sp_clock_reading sp_moment_now(void)
 {
-    return (sp_moment){sp_now(), sp_clock(CLOCK_PROCESS_CPUTIME_ID)};
+    return (sp_clock_reading){sp_now(), sp_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-sp_moment sp_moment_since(sp_moment start)
+sp_clock_reading sp_moment_since(sp_clock_reading start)
 {
-    sp_moment now = sp_moment_now();
-    return (sp_moment){now.wall - start.wall, now.cpu - start.cpu};
+    sp_clock_reading now = sp_moment_now();
+    return (sp_clock_reading){now.wall - start.wall, now.cpu - start.cpu};
 }
 
 bool sp_stopwatch_wants(const sp_stopwatch *watch)
@@ -37,12 +37,12 @@ static double median(double *values, size_t count)
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-sp_moment sp_stopwatch_median(const sp_stopwatch *watch)
+sp_clock_reading sp_stopwatch_median(const sp_stopwatch *watch)
 {
     double wall[SP_STUDY_ROUNDS], cpu[SP_STUDY_ROUNDS];
     for (size_t i = 0; i < watch->count; i++) {
         wall[i] = watch->rounds[i].wall;
         cpu[i] = watch->rounds[i].cpu;
     }
-    return (sp_moment){median(wall, watch->count), median(cpu, watch->count)};
+    return (sp_clock_reading){median(wall, watch->count), median(cpu, watch->count)};
 }

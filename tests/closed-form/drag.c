@@ -73,7 +73,7 @@ static void compare(double diameter, double speed, const sp_fronts *fronts, sp_v
 {
     sp_chain chain = sp_chain_of(fronts, from, flight);
     drop at = {from, sp_scale(flight->direction, speed)};
-    sp_piece piece;
+    sp_arc_piece piece;
     double now = 0, end = 0;
     while (sp_chain_next(&chain, &piece)) {
         assert_true(fabs(piece.start - end) <= 1e-9 * flight->time);
@@ -144,7 +144,7 @@ static void marches_keep_to_the_reference(void **state)
             sp_leg leg = sp_march_on(&march, 1e-7);
             if (isinf(leg.time))
                 break;
-            sp_moment half = sp_leg_at(&leg, leg.time / 2);
+            sp_drag_state half = sp_leg_at(&leg, leg.time / 2);
             at = fly(diameter, at, down, leg.time / 2, 20);
             place = fmax(place, sp_distance(half.point, at.place) / sp_length(at.place));
             velocity = fmax(velocity, sp_distance(half.velocity, at.velocity) / sp_length(at.velocity));

@@ -76,7 +76,7 @@ static void hand_over_surface(void)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     size_t triangles = mesh->triangle_count;
-    sp_wet_told told;
+    sp_wet_arrays told;
     sp_error error = {0};
     assert_true(sp_evaluator_tell_wet(evaluator, &told, &error));
     assert_true(told.cut_count > 0);
@@ -92,7 +92,7 @@ static void hand_over_surface(void)
     hand_over(SP_LIVE_SIDES, told.sides, triangles);
     hand_over(SP_LIVE_NODES, told.nodes, told.node_count);
     hand_over(SP_LIVE_CUTS, told.cuts, told.cut_count * sizeof *told.cuts);
-    sp_wet_told_free(&told);
+    sp_wet_arrays_free(&told);
 }
 
 static void hand_over_settings(const sp_setup *setup)

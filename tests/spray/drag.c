@@ -1,7 +1,7 @@
 /* Both evaluators with drag: one against the other, and what rebounds. */
 #include "shapes.h"
 
-#include "spray/drag/leg.h"
+#include "spray/drag/integrate.h"
 
 static const sp_nozzle_type cone = {.name = "cone",
                                     .pattern = SP_PATTERN_FULL_CONE,

@@ -101,7 +101,8 @@ sp_verdict sp_judge_overlap(const sp_sheets *sheets, uint32_t number)
     const sp_sheet *sheet = &sheets->items[number];
     size_t count;
     sp_segment *segments = boundary_of(sheets, sheet, &count);
-    sp_outline outline = segments ? sp_find_outline(segments, count, sheet->vertex_count) : (sp_outline){0};
+    sp_boundary_test outline =
+        segments ? sp_test_boundary(segments, count, sheet->vertex_count) : (sp_boundary_test){0};
     free(segments);
     if (!outline.memory)
         return SP_SHEET_MEMORY;

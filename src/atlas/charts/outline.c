@@ -48,17 +48,17 @@ static size_t count_forward(const sp_segment *segments, size_t count, uint32_t *
     return forward;
 }
 
-sp_outline sp_find_outline(const sp_segment *segments, size_t count, size_t vertex_count)
+sp_boundary_test sp_test_boundary(const sp_segment *segments, size_t count, size_t vertex_count)
 {
     uint32_t *from = malloc((vertex_count + 1) * sizeof *from);
     if (!from)
-        return (sp_outline){0};
+        return (sp_boundary_test){0};
     for (size_t v = 0; v < vertex_count; v++)
         from[v] = SP_NONE;
     size_t forward = count_forward(segments, count, from);
     free(from);
     if (forward != 1)
-        return (sp_outline){.memory = true};
+        return (sp_boundary_test){.memory = true};
     sp_crossing found = sp_segments_cross(segments, count);
-    return (sp_outline){.simple = !found.crossing, .memory = found.memory, .tests = found.tests};
+    return (sp_boundary_test){.simple = !found.crossing, .memory = found.memory, .tests = found.tests};
 }

@@ -12,7 +12,7 @@ static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
     const sp_raster *raster = &pieces->raster;
     if (pieces->capacity - pieces->count < raster->count) {
         size_t capacity = 2 * pieces->capacity + raster->count + 64;
-        sp_piece *items = realloc(pieces->items, capacity * sizeof *items);
+        sp_texel_piece *items = realloc(pieces->items, capacity * sizeof *items);
         if (!items)
             return false;
         pieces->items = items;
@@ -32,7 +32,7 @@ static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
 static void measure_row(sp_pieces *pieces)
 {
     const sp_raster *raster = &pieces->raster;
-    sp_piece *row = pieces->items + (pieces->count - raster->count);
+    sp_texel_piece *row = pieces->items + (pieces->count - raster->count);
     for (uint32_t i = 0; i < raster->count; i++)
         row[i].area = sp_greater(raster->area[i], LEAST_SHARE * raster->flat);
 }
@@ -61,10 +61,10 @@ typedef struct {
     size_t first;
 } piece_row;
 
-static bool visit_row(const sp_piece *items, const piece_row *row, const piece_row *below, sp_pieces_visitor *visit,
-                      void *user)
+static bool visit_row(const sp_texel_piece *items, const piece_row *row, const piece_row *below,
+                      sp_pieces_visitor *visit, void *user)
 {
-    const sp_piece *own = items + row->first, *other = items + below->first;
+    const sp_texel_piece *own = items + row->first, *other = items + below->first;
     for (uint32_t i = 1; i < row->count; i++)
         if (!visit(user, own[i - 1].texel, own[i].texel, row->x + i - 1, row->y, false))
             return false;

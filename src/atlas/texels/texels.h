@@ -38,9 +38,9 @@ uint32_t sp_atlas_row_texel(const sp_atlas *atlas, uint32_t triangle, const sp_r
 typedef struct {
     uint32_t texel;
     double area; /* m² on the surface; they sum to the triangle's */
-} sp_piece;
+} sp_texel_piece;
 typedef struct {
-    sp_piece *items;
+    sp_texel_piece *items;
     size_t count, capacity;
     sp_raster raster;
 } sp_pieces;

@@ -42,7 +42,7 @@ static bool is_partly(uint8_t sides)
 }
 
 /* How many nodes a triangle has from the first on, and cuts among them. */
-static place count_nodes(const sp_wet_told *wet, size_t first)
+static place count_nodes(const sp_wet_arrays *wet, size_t first)
 {
     place found = {0, 0};
     for (size_t open = 1; open; open--, found.node++)
@@ -53,7 +53,7 @@ static place count_nodes(const sp_wet_told *wet, size_t first)
     return found;
 }
 
-static place *find_places(const sp_wet_told *wet, size_t triangles)
+static place *find_places(const sp_wet_arrays *wet, size_t triangles)
 {
     place *places = malloc((triangles + 1) * sizeof *places), next = {0, 0};
     for (size_t t = 0; places && t < triangles; t++) {
@@ -72,7 +72,7 @@ typedef struct {
     sp_number_model cuts[3];
 } wet_models;
 
-static void tell_nodes(const sp_wet_told *wet, place first, wet_models *models, sp_coder *coder)
+static void tell_nodes(const sp_wet_arrays *wet, place first, wet_models *models, sp_coder *coder)
 {
     place count = count_nodes(wet, first.node);
     for (size_t i = 0; i < count.node; i++)
@@ -82,7 +82,7 @@ static void tell_nodes(const sp_wet_told *wet, place first, wet_models *models, 
 }
 
 /* Triangle by triangle: its sides, and how it is cut. */
-static bool tell_wet(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_wet_told *wet,
+static bool tell_wet(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_wet_arrays *wet,
                      sp_error *error)
 {
     if (!sp_evaluator_tell_wet(evaluator, wet, error))
@@ -141,7 +141,7 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     sp_walk walk;
     sp_places_told told;
-    sp_wet_told wet = {0};
+    sp_wet_arrays wet = {0};
     json_t *about = NULL;
     if (!sp_walk_create(&walk, mesh, atlas, coder) || !tell_surface(evaluator, &walk, coder, &told) ||
         !tell_drawn(surface, &walk, coder))
@@ -152,7 +152,7 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
                           (json_int_t)mesh->vertex_count, "triangles", (json_int_t)mesh->triangle_count, "charts",
                           (json_int_t)atlas->chart_count, "nodes", (json_int_t)wet.node_count, "cuts",
                           (json_int_t)wet.cut_count);
-    sp_wet_told_free(&wet);
+    sp_wet_arrays_free(&wet);
     sp_walk_free(&walk);
     return about;
 }

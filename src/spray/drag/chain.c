@@ -36,7 +36,7 @@ static sp_vec3 place_at(const sp_chain *chain, double time)
     return place_of(chain, sp_front_place_between(chain->fronts, time, chain->polynomials));
 }
 
-bool sp_chain_next(sp_chain *chain, sp_piece *piece)
+bool sp_chain_next(sp_chain *chain, sp_arc_piece *piece)
 {
     const sp_fronts *fronts = chain->fronts;
     const double *joints = fronts->joints;
@@ -69,12 +69,12 @@ static int count_pieces(const sp_leg *leg, sp_vec3 start)
     return share > 1 ? (int)fmin(ceil(cbrt(share)), PIECES_MOST) : 1;
 }
 
-static sp_piece piece_of(const sp_leg *leg, int i, int count)
+static sp_arc_piece piece_of(const sp_leg *leg, int i, int count)
 {
     if (isinf(leg->time))
-        return (sp_piece){.ray = {leg->from.point, leg->from.velocity, 0, INFINITY, SP_NONE}};
+        return (sp_arc_piece){.ray = {leg->from.point, leg->from.velocity, 0, INFINITY, SP_NONE}};
     double time = leg->time / count;
-    sp_piece piece = {.start = i * time};
+    sp_arc_piece piece = {.start = i * time};
     sp_vec3 place[3] = {sp_leg_at(leg, i * time).point, sp_leg_at(leg, (i + 0.5) * time).point,
                         i + 1 < count ? sp_leg_at(leg, (i + 1) * time).point : leg->to.point};
     piece.ray = sp_parabola_through(place, time, &piece.pull);
@@ -84,7 +84,7 @@ static sp_piece piece_of(const sp_leg *leg, int i, int count)
 
 /* Whether a drop that has come to a moment can meet nothing in the box any more: on either side it moves away from it,
  * and nothing pulls it back. */
-static bool has_left(const sp_moment *now, sp_vec3 gravity, const sp_vec3 box[2])
+static bool has_left(const sp_drag_state *now, sp_vec3 gravity, const sp_vec3 box[2])
 {
     const double at[3] = {now->point.x, now->point.y, now->point.z};
     const double speed[3] = {now->velocity.x, now->velocity.y, now->velocity.z};
@@ -96,10 +96,10 @@ static bool has_left(const sp_moment *now, sp_vec3 gravity, const sp_vec3 box[2]
     return false;
 }
 
-static bool has_left_all(const sp_obstacle *obstacles, int count, const sp_moment *now, sp_vec3 gravity)
+static bool has_left_all(const sp_obstacle *obstacles, int count, const sp_drag_state *now, sp_vec3 gravity)
 {
     for (int i = 0; i < count; i++) {
-        sp_moment seen = *now;
+        sp_drag_state seen = *now;
         seen.point = sp_sub(seen.point, obstacles[i].offset);
         if (!has_left(&seen, gravity, obstacles[i].box))
             return false;
@@ -108,7 +108,7 @@ static bool has_left_all(const sp_obstacle *obstacles, int count, const sp_momen
 }
 
 /* What a piece meets first. */
-static sp_hit meet(const sp_obstacle *obstacles, int count, const sp_piece *piece, int *obstacle)
+static sp_hit meet(const sp_obstacle *obstacles, int count, const sp_arc_piece *piece, int *obstacle)
 {
     sp_hit first = {.t = INFINITY, .triangle = SP_NONE};
     for (int i = 0; i < count; i++) {
@@ -135,7 +135,7 @@ sp_landing sp_drag_trace(const sp_obstacle *obstacles, int obstacle_count, const
         int count = count_pieces(&leg, ray->origin);
         bool falls = isinf(leg.time) && sp_length(gravity) > 0;
         for (int i = 0; i < count && (falls || isfinite(leg.time)); i++) {
-            sp_piece piece = piece_of(&leg, i, count);
+            sp_arc_piece piece = piece_of(&leg, i, count);
             piece.ray.t_min = fmax(0, ray->t_min - (start + piece.start));
             landing.hit = meet(obstacles, obstacle_count, &piece, &landing.obstacle);
             if (landing.hit.triangle == SP_NONE)

@@ -9,7 +9,7 @@ typedef struct {
     sp_vec3 pull; /* m/s², its acceleration */
     double start; /* s, when it begins */
     bool last;
-} sp_piece;
+} sp_arc_piece;
 
 /* A flight that was found on the fronts, while it is gone along. */
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
 
 sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight);
 /* The next piece; false behind the last. */
-bool sp_chain_next(sp_chain *chain, sp_piece *piece);
+bool sp_chain_next(sp_chain *chain, sp_arc_piece *piece);
 
 /* What a drop may meet. */
 typedef struct {
@@ -38,7 +38,7 @@ typedef struct {
 typedef struct {
     sp_hit hit;   /* its t by the piece's own clock */
     int obstacle; /* of what may be met, the first of those that are met at once */
-    sp_piece piece;
+    sp_arc_piece piece;
     sp_vec3 velocity; /* m/s */
     double time;      /* s, since it started */
 } sp_landing;

@@ -36,7 +36,7 @@ typedef struct {
 
 static arrival arrival_at(const sp_fronts *fronts, double elevation, double time)
 {
-    sp_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
+    sp_drop_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
     double sine = sin(elevation), cosine = cos(elevation);
     arrival own = {
         .q = front.q,

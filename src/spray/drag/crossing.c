@@ -23,7 +23,7 @@ typedef struct {
 
 /* The front as an end sees it. */
 typedef struct {
-    sp_front front;
+    sp_drop_front front;
     double elevation, sine, cosine; /* that lead there, rad */
     double outside;                 /* m */
     double approach;                /* its derivative by time, m/s */
@@ -38,7 +38,7 @@ typedef struct {
     bool roughly;
 } glance;
 
-static sp_front front_of(const sp_fronts *fronts, const glance *at, double elevation)
+static sp_drop_front front_of(const sp_fronts *fronts, const glance *at, double elevation)
 {
     return at->roughly ? sp_front_at_moment(fronts, at->i, fronts->rough[at->i], elevation)
                        : sp_front_between(fronts, at->i, at->time, elevation);
@@ -48,7 +48,7 @@ static sp_front front_of(const sp_fronts *fronts, const glance *at, double eleva
 static void face(const end *end, const glance *at, view *view)
 {
     double linear = at->roughly ? ROUGH : LINEAR;
-    sp_front *front = &view->front;
+    sp_drop_front *front = &view->front;
     for (int round = 0; round < TURNS; round++) {
         *front = front_of(end->fronts, at, view->elevation);
         double rise = end->up - front->d,
@@ -69,7 +69,7 @@ static view view_by(const end *end, const glance *at, double elevation)
 {
     view view = {.elevation = elevation};
     face(end, at, &view);
-    const sp_front *front = &view.front;
+    const sp_drop_front *front = &view.front;
     double rise = end->up - front->d, way = hypot(end->forward, rise);
     view.outside = way - front->q;
     view.cosine = way > 0 ? end->forward / way : cos(view.elevation);
@@ -313,7 +313,7 @@ static sp_vec3 outwards(const plane *plane, double forward, double up)
 
 static sp_flight flight_of(const plane *plane, const view *view, double time)
 {
-    const sp_front *front = &view->front;
+    const sp_drop_front *front = &view->front;
     return (sp_flight){.direction = sp_unit(outwards(plane, view->cosine, view->sine)),
                        .velocity =
                            outwards(plane, front->q_time * view->cosine, front->q_time * view->sine + front->d_time),

@@ -46,7 +46,7 @@ static inline void finish(sums *own)
         own->slope[k] /= 0.5 * M_PI;
 }
 
-sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
+sp_drop_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
 {
     const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
     polynomial p = first_polynomial(elevation);
@@ -55,7 +55,7 @@ sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, d
         add(&own, sum[n], &p);
     finish(&own);
     const double *value = (const double *)own.value, *slope = (const double *)own.slope;
-    return (sp_front){value[0], value[1], slope[0], value[3], value[4], slope[3]};
+    return (sp_drop_front){value[0], value[1], slope[0], value[3], value[4], slope[3]};
 }
 
 /* Of moments i and i + 1, by the same polynomials. */
@@ -110,7 +110,7 @@ static double blend(const double weight[6], double step, const double *from, con
            step * (weight[1] * from[1] + weight[4] * to[1] + step * (weight[2] * from[2] + weight[5] * to[2]));
 }
 
-sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation)
+sp_drop_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation)
 {
     double step = fronts->time[i + 1] - fronts->time[i], x = (time - fronts->time[i]) / step;
     double weight[6], change[6];
@@ -120,12 +120,12 @@ sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double
     const double *turn_from = (const double *)both[0].slope, *turn_to = (const double *)both[1].slope;
     quintic(x, weight);
     quintic_slope(x, change);
-    return (sp_front){.q = blend(weight, step, from, to),
-                      .q_time = blend(change, step, from, to) / step,
-                      .q_turn = blend(weight, step, turn_from, turn_to),
-                      .d = blend(weight, step, from + 3, to + 3),
-                      .d_time = blend(change, step, from + 3, to + 3) / step,
-                      .d_turn = blend(weight, step, turn_from + 3, turn_to + 3)};
+    return (sp_drop_front){.q = blend(weight, step, from, to),
+                           .q_time = blend(change, step, from, to) / step,
+                           .q_turn = blend(weight, step, turn_from, turn_to),
+                           .d = blend(weight, step, from + 3, to + 3),
+                           .d_time = blend(change, step, from + 3, to + 3) / step,
+                           .d_turn = blend(weight, step, turn_from + 3, turn_to + 3)};
 }
 
 size_t sp_front_moment_before(const sp_fronts *fronts, double time)

@@ -16,9 +16,9 @@
 /* The drops under way. */
 typedef struct {
     unsigned count;
-    double sine[SP_FRONT_ORDER], cosine[SP_FRONT_ORDER]; /* of their elevations */
-    double share[4 * SP_FRONT_ORDER];                    /* cosines of a full turn, 4 count of them */
-    sp_moment now[SP_FRONT_ORDER], next[SP_FRONT_ORDER]; /* x forwards, z upwards */
+    double sine[SP_FRONT_ORDER], cosine[SP_FRONT_ORDER];     /* of their elevations */
+    double share[4 * SP_FRONT_ORDER];                        /* cosines of a full turn, 4 count of them */
+    sp_drag_state now[SP_FRONT_ORDER], next[SP_FRONT_ORDER]; /* x forwards, z upwards */
     sp_vec3 gravity;
 } drops;
 
@@ -33,7 +33,7 @@ static void set_off(const sp_fronts *fronts, drops *drops, unsigned count)
         drops->sine[k] = sin(elevation);
         drops->cosine[k] = cos(elevation);
         sp_vec3 velocity = sp_v(fronts->speed * drops->cosine[k], 0, fronts->speed * drops->sine[k]);
-        drops->now[k] = sp_drag_moment(&fronts->drag, sp_v(0, 0, 0), velocity, drops->gravity);
+        drops->now[k] = sp_drag_state_of(&fronts->drag, sp_v(0, 0, 0), velocity, drops->gravity);
     }
 }
 
@@ -116,14 +116,14 @@ static bool fly_free(sp_fronts *fronts, drops *drops)
     if (!record(fronts, drops, 0, delay))
         return false;
     for (unsigned k = 0; k < drops->count; k++) {
-        sp_moment *now = &drops->now[k];
+        sp_drag_state *now = &drops->now[k];
         now->point = sp_along(sp_scale(now->velocity, delay), 0.5 * delay * delay, drops->gravity);
         now->velocity = sp_along(now->velocity, delay, drops->gravity);
     }
     if (!record(fronts, drops, delay, delay))
         return false;
     for (unsigned k = 0; k < drops->count; k++)
-        drops->now[k] = sp_drag_moment(&fronts->drag, drops->now[k].point, drops->now[k].velocity, drops->gravity);
+        drops->now[k] = sp_drag_state_of(&fronts->drag, drops->now[k].point, drops->now[k].velocity, drops->gravity);
     return true;
 }
 
@@ -157,7 +157,7 @@ static bool are_settled(const sp_fronts *fronts, const drops *drops)
 /* Nothing comes to within `far` any more. */
 static bool are_past(const sp_fronts *fronts)
 {
-    sp_front up = sp_front_at_moment(fronts, fronts->count - 1, fronts->terms[fronts->count - 1], 0.5 * M_PI);
+    sp_drop_front up = sp_front_at_moment(fronts, fronts->count - 1, fronts->terms[fronts->count - 1], 0.5 * M_PI);
     return sp_length(fronts->gravity) > 0 ? up.q + up.d < -fronts->far : up.q > fronts->far;
 }
 
@@ -172,7 +172,7 @@ static bool settle(sp_fronts *fronts)
     if (!(sp_length(fronts->gravity) > 0) || !(fall < 0))
         return true;
     sum[0][4] = fall;
-    sp_front up = sp_front_at_moment(fronts, last, fronts->terms[last], 0.5 * M_PI);
+    sp_drop_front up = sp_front_at_moment(fronts, last, fronts->terms[last], 0.5 * M_PI);
     double time = fmax(up.q + up.d + 2 * fronts->far, fronts->far) / -fall;
     if (!make_room(fronts))
         return false;
@@ -237,7 +237,7 @@ static double misses(const sp_fronts *fronts, double from, double to)
         double elevation = 0.75 * k, sine = sin(elevation), cosine = cos(elevation);
         for (int i = 0; i < 4; i++) {
             double time = from + shares[i] * (to - from);
-            sp_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
+            sp_drop_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
             place[i] = sp_v(front.q * cosine, 0, front.q * sine + front.d);
         }
         worst = fmax(worst, sp_parabola_misses(place, place[3]) / sp_length(place[3]));

@@ -6,7 +6,7 @@
 #ifndef SPRAY_DRAG_FRONTS_H
 #define SPRAY_DRAG_FRONTS_H
 
-#include "leg.h"
+#include "integrate.h"
 
 #define SP_FRONT_ORDER 32 /* polynomials in θ at most */
 #define SP_FRONT_DATA 6   /* q, its first and second derivative by time, and the same of d */
@@ -38,12 +38,12 @@ typedef struct sp_front_bound {
 typedef struct {
     double q, q_time, q_turn; /* m, and by time and elevation */
     double d, d_time, d_turn;
-} sp_front;
+} sp_drop_front;
 
 /* At moment i, by so many polynomials. */
-sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation);
+sp_drop_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation);
 /* At a time between moments i and i + 1. */
-sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation);
+sp_drop_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation);
 /* Where a flight of one elevation is: q and d, m. */
 typedef struct {
     double q, d;

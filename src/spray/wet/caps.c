@@ -1,5 +1,5 @@
 /* Lids for the flood alone. */
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t)
 {

@@ -1,7 +1,7 @@
 /* Openings, from the lines that leave the liquid for the sky or for what lies outdoors. Around such a line, from where
  * it starts, directions are tried until something is in the way: how far that is to either side, at the distance where
  * the nearest of it stands, is the opening's width. Lines that pass each other closely use the same opening. */
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 #include <stdlib.h>
 
@@ -75,7 +75,7 @@ static size_t gather(sp_opening *openings, size_t count, size_t most, sp_opening
     return count;
 }
 
-static bool is_leaving(const bool *liquid, sp_sight sight)
+static bool is_leaving(const bool *liquid, sp_sight_link sight)
 {
     return liquid[sight.from] && (sight.to == SP_SKY || (sight.to != SP_UNTOLD && !liquid[sight.to]));
 }
@@ -104,7 +104,7 @@ static size_t measure_leaving(const sp_flood *flood, const bool *liquid, const b
     size_t measured = leaving < MOST_MEASURED ? leaving : MOST_MEASURED;
     double same = SAME_OPENING / SP_CONTACT * flood->faces->cuts->contact;
     for (size_t i = 0, passed = 0; i < flood->sight_count && next < measured; i++) {
-        sp_sight sight = flood->sights[i];
+        sp_sight_link sight = flood->sights[i];
         if (!is_leaving(liquid, sight) || !sheltered[sight.from] || passed++ * measured < next * leaving)
             continue;
         next++;

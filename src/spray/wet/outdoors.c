@@ -7,7 +7,7 @@
  * likely end belong to it, and so do flat and concave neighbours of what does, and whatever can be reached and sees no
  * sky even by way of others. The rest is outdoors. An opening that is narrow against what is behind it is never passed;
  * what is half open, such as a bell over a pot, may fall on either side. */
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 #include "mesh/half_edge.h"
 
@@ -26,12 +26,12 @@
 
 typedef struct {
     const sp_flood *flood;
-    bool *liquid;     /* candidates, from the flood */
-    bool *in;         /* [sides], of them: known to be liquid */
-    double *chance;   /* [sides] */
-    double *sum;      /* [sides] */
-    uint32_t *lines;  /* [sides] */
-    sp_sight *sights; /* of what is in doubt */
+    bool *liquid;          /* candidates, from the flood */
+    bool *in;              /* [sides], of them: known to be liquid */
+    double *chance;        /* [sides] */
+    double *sum;           /* [sides] */
+    uint32_t *lines;       /* [sides] */
+    sp_sight_link *sights; /* of what is in doubt */
     size_t sight_count;
     sp_half_edges edges;
 } indoors;
@@ -92,7 +92,7 @@ static size_t sweep(indoors *known, double bound, double *change)
     }
     size_t kept = 0;
     for (size_t i = 0; i < known->sight_count; i++) {
-        sp_sight sight = known->sights[i];
+        sp_sight_link sight = known->sights[i];
         if (known->in[sight.from])
             continue;
         known->sights[kept++] = sight;
@@ -159,7 +159,7 @@ static size_t take_skyless(indoors *known, uint32_t *parent, bool *sky)
         sky[side] = false;
     }
     for (size_t i = 0; i < flood->sight_count; i++) {
-        sp_sight sight = flood->sights[i];
+        sp_sight_link sight = flood->sights[i];
         if (sight.to < flood->sides && !known->in[sight.from] && !known->in[sight.to])
             sp_set_join(parent, sight.from, sight.to);
     }
@@ -189,7 +189,7 @@ static bool settle(indoors *known, double bound, sp_error *error)
     }
     known->sight_count = 0;
     for (size_t i = 0; i < known->flood->sight_count; i++) {
-        sp_sight sight = known->flood->sights[i];
+        sp_sight_link sight = known->flood->sights[i];
         if (known->liquid[sight.from] && !known->in[sight.from] && sight.to != SP_UNTOLD)
             known->sights[known->sight_count++] = sight;
     }

@@ -15,7 +15,7 @@
  * that it lies in steel. */
 #include "spray/wet/wet.h"
 
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 #include <limits.h>
 #include <stdlib.h>

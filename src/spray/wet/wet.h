@@ -2,7 +2,7 @@
 #ifndef SPRAY_WET_H
 #define SPRAY_WET_H
 
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 typedef struct sp_wet {
     sp_shells shells;

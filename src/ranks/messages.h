@@ -1,6 +1,6 @@
-/* What ranks tell one another: each what it has done of what was dealt out, all of it to all. */
-#ifndef RANKS_GATHER_H
-#define RANKS_GATHER_H
+/* Messages among ranks: each sends what it has done of what was dealt out, all of it to all. */
+#ifndef RANKS_MESSAGES_H
+#define RANKS_MESSAGES_H
 
 #include <sprayplan/ranks.h>
 
@@ -27,28 +27,28 @@ void sp_ranks_part(sp_ranks *ranks);
 void sp_ranks_rejoin(sp_ranks *ranks);
 bool sp_ranks_apart(const sp_ranks *ranks);
 
-/* Bytes in the making: what one rank tells. {0} at first. */
+/* Bytes in the making: what one rank sends. {0} at first. */
 typedef struct {
     size_t count, capacity;
     unsigned char *bytes;
     bool lacks_memory;
-} sp_told;
-void sp_tell(sp_told *told, const void *bytes, size_t size);
-void sp_told_free(sp_told *told);
+} sp_outgoing;
+void sp_pack(sp_outgoing *outgoing, const void *bytes, size_t size);
+void sp_outgoing_free(sp_outgoing *outgoing);
 
-/* What all ranks told, each part read once from its beginning. */
+/* What all ranks sent, each part read once from its beginning. */
 typedef struct {
     size_t count;     /* of ranks; 0: nobody was asked */
     size_t *at, *end; /* [count] of `bytes` */
     unsigned char *bytes;
-} sp_heard;
-/* Tells all, and hears from all; `what` is the same on all ranks, or they have come apart. Of one rank nothing is to be
- * heard; nor is it of ranks that are lost: what was dealt out to them is as though it had not been begun. Frees `told`.
- * False with an error, and nothing to free, where memory runs out or a rank has failed. */
-bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_told *told, sp_heard *heard, sp_error *error);
-/* Reads on in what a rank told; false, and `bytes` as they were, where that is not there. */
-bool sp_hear(sp_heard *heard, size_t rank, void *bytes, size_t size);
-void sp_heard_free(sp_heard *heard);
+} sp_gathered;
+/* All-to-all: sends to all and receives from all; `what` is the same on all ranks, or they have come apart. From a
+ * single rank nothing comes, nor from ranks that are lost: what was dealt out to them is as though it had not been
+ * begun. Frees `outgoing`. False with an error, and nothing to free, where memory runs out or a rank has failed. */
+bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_outgoing *outgoing, sp_gathered *gathered, sp_error *error);
+/* Reads on in what a rank sent; false, and `bytes` as they were, where that is not there. */
+bool sp_unpack(sp_gathered *gathered, size_t rank, void *bytes, size_t size);
+void sp_gathered_free(sp_gathered *gathered);
 
 /* The highest of what all ranks have, of each of a few values; as they are where the others are lost. */
 enum { SP_VALUES_MOST = 4 };

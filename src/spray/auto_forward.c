@@ -1,4 +1,4 @@
-#include "choice.h"
+#include "auto_settings.h"
 
 #include "resolution.h"
 
@@ -24,7 +24,7 @@ static grain grain_of(const sp_evaluator *evaluator)
 
 /* The next to try, or the same where nothing is left: what covers too much has long texels, what covers too little has
  * few jets. */
-static grain next_grain(const sp_trial *trial, grain now)
+static grain next_grain(const sp_setting_trial *trial, grain now)
 {
     const sp_evaluator *evaluator = trial->evaluator;
     const sp_fidelity *open = &evaluator->setup.fidelity;
@@ -38,14 +38,14 @@ static grain next_grain(const sp_trial *trial, grain now)
     return now;
 }
 
-static bool try_grain(sp_trial *trial, grain grain, sp_error *error)
+static bool try_grain(sp_setting_trial *trial, grain grain, sp_error *error)
 {
     trial->evaluator->fidelity.jets = grain.jets;
-    return sp_trial_at(trial, grain.texel, error);
+    return sp_setting_trial_at(trial, grain.texel, error);
 }
 
 /* Why, as far as it was left open. */
-static void tell_grain(const sp_trial *trial, double estimate)
+static void tell_grain(const sp_setting_trial *trial, double estimate)
 {
     sp_evaluator *evaluator = trial->evaluator;
     const sp_fidelity *open = &evaluator->setup.fidelity;
@@ -60,7 +60,7 @@ static void tell_grain(const sp_trial *trial, double estimate)
 }
 
 /* Texels and jets, by the error of the first impact. */
-static bool choose_grain(sp_trial *trial, sp_error *error)
+static bool choose_grain(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     const sp_fidelity *open = &evaluator->setup.fidelity;
@@ -77,7 +77,8 @@ static bool choose_grain(sp_trial *trial, sp_error *error)
             best = now;
         }
         grain next = next_grain(trial, now);
-        if (sp_trial_keeps(trial) || (next.texel == now.texel && next.jets == now.jets) || sp_trial_late(trial))
+        if (sp_setting_trial_keeps(trial) || (next.texel == now.texel && next.jets == now.jets) ||
+            sp_setting_trial_late(trial))
             break;
         now = next;
     }
@@ -135,7 +136,7 @@ static double all_impacts(const sp_setup *setup, double able)
 }
 
 /* As many as it takes until what still flies can change little. */
-static bool choose_reflections(sp_trial *trial, sp_error *error)
+static bool choose_reflections(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     sp_fidelity *fidelity = &evaluator->fidelity;
@@ -162,7 +163,7 @@ static bool choose_reflections(sp_trial *trial, sp_error *error)
     return true;
 }
 
-bool sp_choose_forward(sp_trial *trial, sp_error *error)
+bool sp_auto_forward(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     const sp_fidelity *open = &evaluator->setup.fidelity;

@@ -1,4 +1,4 @@
-#include "mounts/holds.h"
+#include "mounts/mount_geometry.h"
 
 #include "mesh/distance.h"
 

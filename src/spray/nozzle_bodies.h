@@ -1,6 +1,6 @@
 /* A layout as the evaluators see it: patterns, body by body. */
-#ifndef SPRAY_BODIES_H
-#define SPRAY_BODIES_H
+#ifndef SPRAY_NOZZLE_BODIES_H
+#define SPRAY_NOZZLE_BODIES_H
 
 #include "emitter.h"
 

@@ -1,6 +1,7 @@
-#include "attainable/runs.h"
+#include "attainable/by_fields.h"
 
 #include "attainable/coarse_patch.h"
+#include "scoring/mount_capacity.h"
 #include "scoring/scoring.h"
 
 #include <omp.h>
@@ -68,7 +69,7 @@ static void look_at_variant(const running *r, int thread, uint32_t site, uint32_
     const sp_scope *scope = &r->scopes[variant];
     sp_sweeper *sweeper = &r->sweepers[thread];
     uint32_t mount = search->sites->items[site].mount;
-    size_t place = sp_mount_room(&search->options->mounts[mount]) == 1 ? mount : search->options->mount_count;
+    size_t place = sp_mount_capacity(&search->options->mounts[mount]) == 1 ? mount : search->options->mount_count;
     size_t axes = sp_candidates_axes(search->candidates, mount, variant)->count;
     if (scope->flow_low > r->water_left || search->port_taken[mount])
         return;
@@ -159,8 +160,8 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
     return done;
 }
 
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_deadline *deadline,
-             sp_reason *reasons, sp_error *error)
+bool sp_attain_by_fields(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes,
+                         sp_deadline *deadline, sp_reason *reasons, sp_error *error)
 {
     running r = {.search = search,
                  .deadline = deadline,

@@ -1,4 +1,4 @@
-#include "spray/wet/told.h"
+#include "spray/wet/arrays.h"
 
 #include "mesh/grow.h"
 
@@ -19,7 +19,7 @@ static bool push(stack *open, uint32_t child)
     return true;
 }
 
-static bool tell_triangle(const sp_wet *wet, size_t triangle_count, uint32_t triangle, stack *open, sp_wet_told *told,
+static bool tell_triangle(const sp_wet *wet, size_t triangle_count, uint32_t triangle, stack *open, sp_wet_arrays *told,
                           size_t room[2])
 {
     bool done = push(open, wet->cuts.root[triangle]);
@@ -41,9 +41,9 @@ static bool tell_triangle(const sp_wet *wet, size_t triangle_count, uint32_t tri
     return done;
 }
 
-bool sp_wet_tell(const sp_wet *wet, size_t triangle_count, sp_wet_told *told, sp_error *error)
+bool sp_wet_arrays_create(const sp_wet *wet, size_t triangle_count, sp_wet_arrays *told, sp_error *error)
 {
-    *told = (sp_wet_told){.sides = malloc(triangle_count + 1)};
+    *told = (sp_wet_arrays){.sides = malloc(triangle_count + 1)};
     stack open = {0};
     size_t room[2] = {0, 0};
     bool done = told->sides != NULL;
@@ -56,19 +56,19 @@ bool sp_wet_tell(const sp_wet *wet, size_t triangle_count, sp_wet_told *told, sp
     return done || sp_fail_memory(error);
 }
 
-void sp_wet_told_free(sp_wet_told *told)
+void sp_wet_arrays_free(sp_wet_arrays *told)
 {
     free(told->sides);
     free(told->nodes);
     free(told->cuts);
-    *told = (sp_wet_told){0};
+    *told = (sp_wet_arrays){0};
 }
 
 /* The wet sides while they are made. */
 typedef struct {
     sp_wet *wet;
     size_t triangle_count, node, cut;
-    const sp_wet_told *told;
+    const sp_wet_arrays *told;
 } making;
 
 /* The node in hand as a child: a cell, or a cut whose children are set when their turn comes. SP_NONE where there is
@@ -109,7 +109,7 @@ static bool make_triangle(making *m, uint32_t triangle, stack *open)
     }
 }
 
-static bool make_room(const sp_mesh *mesh, const sp_wet_told *told, sp_wet *wet)
+static bool make_room(const sp_mesh *mesh, const sp_wet_arrays *told, sp_wet *wet)
 {
     size_t triangles = mesh->triangle_count, cells = told->node_count;
     sp_cuts *cuts = &wet->cuts;
@@ -124,7 +124,7 @@ static bool make_room(const sp_mesh *mesh, const sp_wet_told *told, sp_wet *wet)
     return wet->sides && wet->whole && wet->flooded.liquid && cuts->root && cuts->cuts && cuts->cell_triangle;
 }
 
-sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_told *told, sp_error *error)
+sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_arrays *told, sp_error *error)
 {
     sp_wet *wet = calloc(1, sizeof *wet);
     making m = {wet, mesh->triangle_count, 0, 0, told};

@@ -1,4 +1,4 @@
-#include "bounce.h"
+#include "reflection.h"
 
 /* Of the geometry's farthest coordinate. What comes no higher over a wall stays there: what hops ever lower, or is
  * caught in an edge, would go on for ever and get nowhere. */

@@ -1,5 +1,5 @@
 /* Whether a nozzle can stand where a layout puts it. */
-#include "bodies.h"
+#include "nozzle_bodies.h"
 #include "movers.h"
 
 #include "trace/distance.h"

@@ -1,6 +1,6 @@
 /* Flights with drag, step by step. */
-#ifndef SPRAY_DRAG_LEG_H
-#define SPRAY_DRAG_LEG_H
+#ifndef SPRAY_DRAG_INTEGRATE_H
+#define SPRAY_DRAG_INTEGRATE_H
 
 #include <sprayplan/flight.h>
 #include <sprayplan/trace.h>
@@ -9,35 +9,35 @@ typedef struct {
     sp_vec3 point;        /* m */
     sp_vec3 velocity;     /* m/s */
     sp_vec3 acceleration; /* m/s² */
-} sp_moment;
+} sp_drag_state;
 
 /* A drop at a place, with the acceleration that follows from its velocity. */
-sp_moment sp_drag_moment(const sp_drag *drag, sp_vec3 point, sp_vec3 velocity, sp_vec3 gravity);
+sp_drag_state sp_drag_state_of(const sp_drag *drag, sp_vec3 point, sp_vec3 velocity, sp_vec3 gravity);
 /* Where it is after `step` seconds, by one step of Dormand and Prince's pair of orders 5 and 4. Returns its error in
  * speed, or that of its way over its time, by the pair's difference, in m/s; INFINITY for a step too long for numbers.
  */
-double sp_drag_step(const sp_drag *drag, const sp_moment *from, sp_vec3 gravity, double step, sp_moment *to);
+double sp_drag_step(const sp_drag *drag, const sp_drag_state *from, sp_vec3 gravity, double step, sp_drag_state *to);
 /* By what a step of this error is to be multiplied for the next to have the `tolerance`. */
 double sp_drag_stride(double error, double tolerance);
 /* Whether nothing changes any more: it falls at its terminal speed or, without gravity, is slower than `tolerance`
  * times the `speed` it had. */
-bool sp_drag_is_settled(const sp_moment *moment, sp_vec3 gravity, double speed, double tolerance);
+bool sp_drag_is_settled(const sp_drag_state *moment, sp_vec3 gravity, double speed, double tolerance);
 
 /* What lies between two moments: the polynomial of order 5 that has both their places, velocities and accelerations. */
 typedef struct {
-    sp_moment from, to;
+    sp_drag_state from, to;
     double time; /* s, from one to the other; INFINITY: it goes on at the first's velocity */
 } sp_leg;
 
 /* Acceleration left out. */
-sp_moment sp_leg_at(const sp_leg *leg, double t);
+sp_drag_state sp_leg_at(const sp_leg *leg, double t);
 
 /* A flight from start to end: one leg after the other. */
 typedef struct {
     const sp_drag *drag;
     sp_vec3 gravity;
     double speed; /* m/s, at the start */
-    sp_moment now;
+    sp_drag_state now;
     double flown; /* s */
     double step;  /* s, to be tried next */
 } sp_march;

@@ -1,4 +1,4 @@
-#include "bodies.h"
+#include "nozzle_bodies.h"
 
 #include "launch.h"
 

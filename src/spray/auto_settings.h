@@ -1,6 +1,6 @@
 /* What is left to auto, chosen for a layout by measuring. */
-#ifndef SPRAY_CHOICE_H
-#define SPRAY_CHOICE_H
+#ifndef SPRAY_AUTO_SETTINGS_H
+#define SPRAY_AUTO_SETTINGS_H
 
 #include "spray/state/state.h"
 
@@ -11,7 +11,7 @@
 
 /* Sets the evaluator's fidelity and choice and makes its texels: sp_evaluator_create_for says how. Its tracer and wet
  * sides are there, and its texel is the setup's or the plain one. */
-bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
 /* What a choice is made by: the layout, what it does by the settings in hand, and how far that is off. */
 typedef struct {
@@ -19,17 +19,17 @@ typedef struct {
     const sp_layout *layout;
     sp_coverage *coverage;
     sp_measured_error measured;
-} sp_trial;
+} sp_setting_trial;
 /* Evaluates and measures by the evaluator's settings, on the texels that it has. */
-bool sp_trial_run(sp_trial *trial, sp_error *error);
+bool sp_setting_trial_run(sp_setting_trial *trial, sp_error *error);
 /* The same on texels of this length (m). */
-bool sp_trial_at(sp_trial *trial, double texel, sp_error *error);
+bool sp_setting_trial_at(sp_setting_trial *trial, double texel, sp_error *error);
 /* Whether so much of the time limit is over that nothing further is to be tried. */
-bool sp_trial_late(const sp_trial *trial);
+bool sp_setting_trial_late(const sp_setting_trial *trial);
 /* Half the accuracy is for what the settings do, the other half for other layouts like this one. */
-bool sp_trial_keeps(const sp_trial *trial);
+bool sp_setting_trial_keeps(const sp_setting_trial *trial);
 
-/* choice_forward.c: jets, texels and reflections of the forward evaluator. */
-bool sp_choose_forward(sp_trial *trial, sp_error *error);
+/* auto_forward.c: jets, texels and reflections of the forward evaluator. */
+bool sp_auto_forward(sp_setting_trial *trial, sp_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 /* Steps of flights with drag. Acceleration depends on velocity alone, so that a step solves for the velocity and the
  * place follows as its integral by the same weights. J. R. Dormand and P. J. Prince, "A family of embedded Runge-Kutta
  * formulae", Journal of Computational and Applied Mathematics 6, 1980. */
-#include "leg.h"
+#include "integrate.h"
 
 #define STAGES 7
 #define FROM_REST 1e-6 /* s, of a first step */
@@ -19,12 +19,12 @@ static const double weights[STAGES][STAGES] = {
 static const double differences[STAGES] = {71. / 57600,      0,         -71. / 16695, 71. / 1920,
                                            -17253. / 339200, 22. / 525, -1. / 40};
 
-sp_moment sp_drag_moment(const sp_drag *drag, sp_vec3 point, sp_vec3 velocity, sp_vec3 gravity)
+sp_drag_state sp_drag_state_of(const sp_drag *drag, sp_vec3 point, sp_vec3 velocity, sp_vec3 gravity)
 {
-    return (sp_moment){point, velocity, sp_drag_acceleration(drag, velocity, gravity)};
+    return (sp_drag_state){point, velocity, sp_drag_acceleration(drag, velocity, gravity)};
 }
 
-double sp_drag_step(const sp_drag *drag, const sp_moment *from, sp_vec3 gravity, double step, sp_moment *to)
+double sp_drag_step(const sp_drag *drag, const sp_drag_state *from, sp_vec3 gravity, double step, sp_drag_state *to)
 {
     sp_vec3 velocity[STAGES] = {from->velocity}, pull[STAGES] = {from->acceleration};
     sp_vec3 way = sp_v(0, 0, 0), way_error = way, speed_error = sp_scale(pull[0], differences[0]);
@@ -40,7 +40,7 @@ double sp_drag_step(const sp_drag *drag, const sp_moment *from, sp_vec3 gravity,
         way = sp_along(way, weights[STAGES - 1][i], velocity[i]);
         way_error = sp_along(way_error, differences[i], velocity[i]);
     }
-    *to = (sp_moment){sp_along(from->point, step, way), velocity[STAGES - 1], pull[STAGES - 1]};
+    *to = (sp_drag_state){sp_along(from->point, step, way), velocity[STAGES - 1], pull[STAGES - 1]};
     double error = fmax(step * sp_length(speed_error), sp_length(way_error));
     return isfinite(error + sp_length(to->point)) ? error : INFINITY;
 }
@@ -50,17 +50,17 @@ double sp_drag_stride(double error, double tolerance)
     return fmin(fmax(0.9 * pow(tolerance / error, 0.2), 0.1), 5);
 }
 
-bool sp_drag_is_settled(const sp_moment *moment, sp_vec3 gravity, double speed, double tolerance)
+bool sp_drag_is_settled(const sp_drag_state *moment, sp_vec3 gravity, double speed, double tolerance)
 {
     double g = sp_length(gravity);
     return g > 0 ? sp_length(moment->acceleration) <= tolerance * g : sp_length(moment->velocity) <= tolerance * speed;
 }
 
-sp_moment sp_leg_at(const sp_leg *leg, double t)
+sp_drag_state sp_leg_at(const sp_leg *leg, double t)
 {
-    const sp_moment *a = &leg->from, *b = &leg->to;
+    const sp_drag_state *a = &leg->from, *b = &leg->to;
     if (isinf(leg->time))
-        return (sp_moment){sp_along(a->point, t, a->velocity), a->velocity, sp_v(0, 0, 0)};
+        return (sp_drag_state){sp_along(a->point, t, a->velocity), a->velocity, sp_v(0, 0, 0)};
     double h = leg->time, x = t / h;
     /* what the end lacks of place, velocity and acceleration, each times so much time as makes a place of it */
     sp_vec3 place = sp_sub(b->point, sp_along(sp_along(a->point, h, a->velocity), 0.5 * h * h, a->acceleration));
@@ -71,15 +71,15 @@ sp_moment sp_leg_at(const sp_leg *leg, double t)
     sp_vec3 fifth = sp_along(sp_along(sp_scale(place, 6), -3, speed), 0.5, pull);
     sp_vec3 rest = sp_scale(sp_along(sp_along(third, x, fourth), x * x, fifth), x * x * x);
     sp_vec3 slope = sp_scale(sp_along(sp_along(sp_scale(third, 3), 4 * x, fourth), 5 * x * x, fifth), x * x / h);
-    return (sp_moment){.point =
-                           sp_add(sp_along(sp_along(a->point, t, a->velocity), 0.5 * t * t, a->acceleration), rest),
-                       .velocity = sp_add(sp_along(a->velocity, t, a->acceleration), slope)};
+    return (sp_drag_state){.point =
+                               sp_add(sp_along(sp_along(a->point, t, a->velocity), 0.5 * t * t, a->acceleration), rest),
+                           .velocity = sp_add(sp_along(a->velocity, t, a->acceleration), slope)};
 }
 
 sp_march sp_march_from(const sp_drag *drag, sp_vec3 gravity, sp_vec3 point, sp_vec3 velocity)
 {
     sp_march march = {.drag = drag, .gravity = gravity, .speed = sp_length(velocity)};
-    march.now = sp_drag_moment(drag, point, velocity, gravity);
+    march.now = sp_drag_state_of(drag, point, velocity, gravity);
     /* the time in which the velocity changes about as much as it is, or from rest a little */
     double change = sp_length(march.now.acceleration);
     march.step = change > 0 && march.speed > 0 ? march.speed / change : FROM_REST;
@@ -90,13 +90,13 @@ sp_march sp_march_from(const sp_drag *drag, sp_vec3 gravity, sp_vec3 point, sp_v
 static sp_leg fly_free(sp_march *march)
 {
     double delay = march->drag->delay;
-    sp_moment *now = &march->now;
+    sp_drag_state *now = &march->now;
     sp_leg leg = {.from = {now->point, now->velocity, march->gravity}, .time = delay};
     leg.to = leg.from;
     leg.to.point = sp_along(sp_along(now->point, delay, now->velocity), 0.5 * delay * delay, march->gravity);
     leg.to.velocity = sp_along(now->velocity, delay, march->gravity);
     march->flown = delay;
-    *now = sp_drag_moment(march->drag, leg.to.point, leg.to.velocity, march->gravity);
+    *now = sp_drag_state_of(march->drag, leg.to.point, leg.to.velocity, march->gravity);
     return leg;
 }
 

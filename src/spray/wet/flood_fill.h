@@ -1,6 +1,6 @@
 /* The flood: which free sides of faces look into the liquid. */
-#ifndef SPRAY_FLOOD_H
-#define SPRAY_FLOOD_H
+#ifndef SPRAY_FLOOD_FILL_H
+#define SPRAY_FLOOD_FILL_H
 
 #include "spray/wet/faces.h"
 
@@ -13,7 +13,7 @@
 typedef struct {
     uint32_t from, to;
     uint32_t line; /* its number among the lines of `from` */
-} sp_sight;
+} sp_sight_link;
 
 typedef struct {
     const sp_setup *setup;
@@ -24,7 +24,7 @@ typedef struct {
     double area;      /* m², of the free ones */
     uint32_t *parent; /* [sides + 1], disjoint sets of sides that look into one space; the last is the liquid */
     size_t sight_count, sight_room;
-    sp_sight *sights;
+    sp_sight_link *sights;
     uint16_t *seen; /* [sides], how many lines from the cavity's point met the side */
     bool *in_view;  /* [sides], the middle of the side sees the cavity's point */
 } sp_flood;
@@ -36,7 +36,7 @@ bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t);
 sp_vec3 sp_sphere_direction(int index, int count);
 sp_ray sp_sphere_sight(sp_vec3 point, int index, int count);
 
-/* flood.c: a line from inside a face into the space that its side looks into; the side that a line meets. */
+/* flood_fill.c: a line from inside a face into the space that its side looks into; the side that a line meets. */
 sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line);
 uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit);
 

@@ -1,6 +1,6 @@
 /* Which mount holds a nozzle, and whether it takes it. */
-#ifndef MOUNTS_HOLDS_H
-#define MOUNTS_HOLDS_H
+#ifndef MOUNTS_MOUNT_GEOMETRY_H
+#define MOUNTS_MOUNT_GEOMETRY_H
 
 #include <sprayplan/place.h>
 

@@ -1,7 +1,7 @@
 /* Lines of sight are cast from every free side, and two sides that see each other look into the same space. What is
  * joined, however indirectly, with what the cavity's point sees is wet. The lines come in rounds: a few from every
  * side, then more from those that are not wet yet, until further rounds join nothing. Large faces cast more. */
-#include "spray/wet/flood.h"
+#include "spray/wet/flood_fill.h"
 
 #include <stdlib.h>
 
@@ -65,11 +65,11 @@ uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *h
     return faces->state[side] == SP_FACE_FREE ? side : SP_UNTOLD;
 }
 
-static bool note_sight(sp_flood *flood, sp_sight sight)
+static bool note_sight(sp_flood *flood, sp_sight_link sight)
 {
     if (flood->sight_count == flood->sight_room) {
         size_t room = 2 * flood->sight_room + BLOCK;
-        sp_sight *sights = realloc(flood->sights, room * sizeof *sights);
+        sp_sight_link *sights = realloc(flood->sights, room * sizeof *sights);
         if (!sights)
             return false;
         flood->sights = sights;
@@ -100,7 +100,7 @@ static bool trace_block(sp_flood *flood, line_block *block)
     bool done = true;
     for (size_t i = 0; i < block->count && done; i++) {
         uint32_t met = sp_flood_met(flood, &block->rays[i], &block->hits[i]);
-        done = note_sight(flood, (sp_sight){block->side[i], met, (uint32_t)block->line[i]});
+        done = note_sight(flood, (sp_sight_link){block->side[i], met, (uint32_t)block->line[i]});
         if (met == SP_SKY && flood->setup->cavity == SP_CAVITY_OUTSIDE)
             block->joined += sp_set_join(flood->parent, block->side[i], liquid);
         else if (met != SP_SKY && met != SP_UNTOLD)

@@ -1,6 +1,6 @@
 /* How fine the texels of each chart are: finer than asked on thin parts, coarser on what is not cleaned. */
-#ifndef SPRAY_DENSITY_H
-#define SPRAY_DENSITY_H
+#ifndef SPRAY_TEXEL_SIZES_H
+#define SPRAY_TEXEL_SIZES_H
 
 #include "spray/state/state.h"
 
@@ -9,7 +9,7 @@ typedef struct {
     double finest;  /* m, of those of charts with anything to be cleaned */
     double texels;  /* about how many there will be in all */
     double longest; /* texels, the longest side of a chart's box */
-} sp_density;
+} sp_texel_sizes;
 
 typedef struct {
     double texel; /* m, on what is not thin */
@@ -17,17 +17,17 @@ typedef struct {
     double spare; /* the smallest thin charts, with no more than this share of what is cleaned, have no shorter ones
                      than the others */
     double page;  /* texels: no chart is longer for having shorter ones */
-} sp_density_limits;
+} sp_texel_limits;
 
 /* A chart with anything to be cleaned gets texels as asked or, if that is less, of an eighth of its girth, so that what
  * a texel holds turns by 45 degrees at most; longer ones where they became more than twice as many as without thin
  * parts (and more than 50,000). All other charts share no more than a quarter as many as these have, and fit the page.
  * Needs the wet sides. */
-bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_density_limits *limits,
-                       sp_density *density, sp_error *error);
+bool sp_texel_sizes_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_limits *limits,
+                           sp_texel_sizes *density, sp_error *error);
 /* In proportion to those of a finer evaluator: what is thin there is here, and nothing else. */
-bool sp_density_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
-                     sp_density *density, sp_error *error);
-void sp_density_free(sp_density *density);
+bool sp_texel_sizes_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
+                         sp_texel_sizes *density, sp_error *error);
+void sp_texel_sizes_free(sp_texel_sizes *density);
 
 #endif

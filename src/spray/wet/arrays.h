@@ -1,6 +1,6 @@
 /* What wet sides come to, as plain arrays, to be made again where no line of sight is cast. */
-#ifndef SPRAY_WET_TOLD_H
-#define SPRAY_WET_TOLD_H
+#ifndef SPRAY_WET_ARRAYS_H
+#define SPRAY_WET_ARRAYS_H
 
 #include "spray/wet/wet.h"
 
@@ -14,13 +14,13 @@ typedef struct {
     size_t node_count;
     double (*cuts)[3]; /* [cut_count], as sp_cut */
     size_t cut_count;
-} sp_wet_told;
+} sp_wet_arrays;
 
-/* Fills in *told, for sp_wet_told_free whatever the outcome. */
-bool sp_wet_tell(const sp_wet *wet, size_t triangle_count, sp_wet_told *told, sp_error *error);
-void sp_wet_told_free(sp_wet_told *told);
+/* Fills in *told, for sp_wet_arrays_free whatever the outcome. */
+bool sp_wet_arrays_create(const sp_wet *wet, size_t triangle_count, sp_wet_arrays *told, sp_error *error);
+void sp_wet_arrays_free(sp_wet_arrays *told);
 /* For sp_evaluator_restore; of the mesh, which is borrowed. NULL on error, also for nodes that do not belong together.
  */
-sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_told *told, sp_error *error);
+sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_arrays *told, sp_error *error);
 
 #endif

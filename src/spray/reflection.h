@@ -1,6 +1,6 @@
 /* What becomes of a jet at the wall that it meets. */
-#ifndef SPRAY_BOUNCE_H
-#define SPRAY_BOUNCE_H
+#ifndef SPRAY_REFLECTION_H
+#define SPRAY_REFLECTION_H
 
 #include "drag/chain.h"
 #include "spray/state/state.h"

@@ -1,6 +1,6 @@
 /* What fields of candidates reach that closed forms do not tell: film, footprints, and what goods that move take. */
-#ifndef OPTIMIZER_RUNS_H
-#define OPTIMIZER_RUNS_H
+#ifndef OPTIMIZER_BY_FIELDS_H
+#define OPTIMIZER_BY_FIELDS_H
 
 #include "attainable/offers.h"
 #include "scoring/partial.h"
@@ -9,7 +9,7 @@
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,
  * and of the kept nozzles, could together suffice, on the search's patches; and where what hits could of poses that no
  * sweep knows. `scopes` by variant; `reasons` of the patches of `fine`. Ends early where the run is cancelled. */
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_deadline *deadline,
-             sp_reason *reasons, sp_error *error);
+bool sp_attain_by_fields(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes,
+                         sp_deadline *deadline, sp_reason *reasons, sp_error *error);
 
 #endif

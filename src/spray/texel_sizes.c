@@ -1,4 +1,4 @@
-#include "density.h"
+#include "texel_sizes.h"
 
 #include <stdlib.h>
 
@@ -99,8 +99,8 @@ static double spare_length(chart_length *lengths, size_t count, double spare)
 }
 
 /* From girths to lengths of texels. `lengths` is room for the charts. */
-static void choose(const chart_size *sizes, chart_length *lengths, size_t count, const sp_density_limits *limits,
-                   sp_density *density)
+static void choose(const chart_size *sizes, chart_length *lengths, size_t count, const sp_texel_limits *limits,
+                   sp_texel_sizes *density)
 {
     double *length = density->texel, texel = limits->texel;
     for (size_t c = 0; c < count; c++) {
@@ -115,7 +115,7 @@ static void choose(const chart_size *sizes, chart_length *lengths, size_t count,
 }
 
 /* What follows from the lengths. */
-static void conclude(const chart_size *sizes, size_t count, sp_density *density)
+static void conclude(const chart_size *sizes, size_t count, sp_texel_sizes *density)
 {
     density->finest = INFINITY;
     for (size_t c = 0; c < count; c++) {
@@ -126,10 +126,10 @@ static void conclude(const chart_size *sizes, size_t count, sp_density *density)
     }
 }
 
-bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_density_limits *limits,
-                       sp_density *density, sp_error *error)
+bool sp_texel_sizes_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_limits *limits,
+                           sp_texel_sizes *density, sp_error *error)
 {
-    *density = (sp_density){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
+    *density = (sp_texel_sizes){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
     if (!density->texel)
         return false;
     chart_size *sizes = malloc((charts->chart_count + 1) * sizeof *sizes);
@@ -144,15 +144,15 @@ bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, c
     free(lengths);
     if (done)
         return true;
-    sp_density_free(density);
+    sp_texel_sizes_free(density);
     return sp_fail_memory(error);
 }
 
-bool sp_density_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
-                     sp_density *density, sp_error *error)
+bool sp_texel_sizes_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
+                         sp_texel_sizes *density, sp_error *error)
 {
     size_t count = charts->chart_count;
-    *density = (sp_density){.texel = malloc((count + 1) * sizeof *density->texel)};
+    *density = (sp_texel_sizes){.texel = malloc((count + 1) * sizeof *density->texel)};
     chart_size *sizes = malloc((count + 1) * sizeof *sizes);
     bool done = density->texel && sizes;
     for (size_t c = 0; done && c < count; c++)
@@ -164,12 +164,12 @@ bool sp_density_like(const sp_evaluator *evaluator, const sp_charts *charts, con
     free(sizes);
     if (done)
         return true;
-    sp_density_free(density);
+    sp_texel_sizes_free(density);
     return sp_fail_memory(error);
 }
 
-void sp_density_free(sp_density *density)
+void sp_texel_sizes_free(sp_texel_sizes *density)
 {
     free(density->texel);
-    *density = (sp_density){0};
+    *density = (sp_texel_sizes){0};
 }

@@ -1,4 +1,4 @@
-#include "choice.h"
+#include "auto_settings.h"
 
 #include "clock.h"
 #include "resolution.h"
@@ -20,13 +20,13 @@
 #define TRIANGLE_OPEN 5 /* the same where no cavity is named */
 #define PATCH 1.4       /* cut out of the atlas */
 
-bool sp_trial_late(const sp_trial *trial)
+bool sp_setting_trial_late(const sp_setting_trial *trial)
 {
     double limit = trial->evaluator->setup.run.time_limit;
     return limit > 0 && sp_now() - trial->evaluator->began > LATE * limit;
 }
 
-bool sp_trial_run(sp_trial *trial, sp_error *error)
+bool sp_setting_trial_run(sp_setting_trial *trial, sp_error *error)
 {
     sp_coverage_destroy(trial->coverage);
     trial->coverage = sp_evaluate(trial->evaluator, trial->layout, error);
@@ -34,22 +34,22 @@ bool sp_trial_run(sp_trial *trial, sp_error *error)
            sp_measure_roughly(trial->evaluator, trial->layout, trial->coverage, &trial->measured, error);
 }
 
-bool sp_trial_at(sp_trial *trial, double texel, sp_error *error)
+bool sp_setting_trial_at(sp_setting_trial *trial, double texel, sp_error *error)
 {
     sp_fidelity *fidelity = &trial->evaluator->fidelity;
     fidelity->texel = texel;
     if (fidelity->method == SP_METHOD_INVERSE)
         fidelity->jets = trial->evaluator->setup.fidelity.jets; /* told anew from the texel */
-    return sp_texels_create(trial->evaluator, NULL, error) && sp_trial_run(trial, error);
+    return sp_texels_create(trial->evaluator, NULL, error) && sp_setting_trial_run(trial, error);
 }
 
-bool sp_trial_keeps(const sp_trial *trial)
+bool sp_setting_trial_keeps(const sp_setting_trial *trial)
 {
     return trial->measured.estimate <= 0.5 * trial->evaluator->setup.fidelity.accuracy;
 }
 
 /* As a length, then what was measured of it. */
-static void tell_texel(const sp_trial *trial, const char *what)
+static void tell_texel(const sp_setting_trial *trial, const char *what)
 {
     snprintf(trial->evaluator->choice.texel, SP_WHY, "%s: error within %.2f points of coverage, %.2f %% misjudged",
              what, 100 * trial->measured.estimate, 100 * trial->measured.misjudged);
@@ -57,25 +57,25 @@ static void tell_texel(const sp_trial *trial, const char *what)
 
 /* The area misjudged tells the texel, since it shrinks at least as the texel does. The error, which is only its balance
  * between too much and too little, is then measured. */
-static bool choose_texel(sp_trial *trial, sp_error *error)
+static bool choose_texel(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     double accuracy = evaluator->setup.fidelity.accuracy;
     double texel = sp_texel_of(evaluator, SP_FEWEST_TEXELS), finest = sp_texel_of(evaluator, SP_MOST_TEXELS);
-    if (sp_trial_late(trial)) {
+    if (sp_setting_trial_late(trial)) {
         snprintf(evaluator->choice.texel, SP_WHY, "the coarsest that auto takes, for lack of time: not measured");
         evaluator->fidelity.texel = texel;
         return sp_texels_create(evaluator, NULL, error);
     }
-    if (!sp_trial_at(trial, texel, error))
+    if (!sp_setting_trial_at(trial, texel, error))
         return false;
     double told = texel * fmin(1, accuracy / fmax(trial->measured.misjudged, 1e-300));
-    while ((told < texel || !sp_trial_keeps(trial)) && texel > finest && !sp_trial_late(trial)) {
+    while ((told < texel || !sp_setting_trial_keeps(trial)) && texel > finest && !sp_setting_trial_late(trial)) {
         texel = told = fmax(told < texel ? told : SHORTER * texel, finest);
-        if (!sp_trial_at(trial, texel, error))
+        if (!sp_setting_trial_at(trial, texel, error))
             return false;
     }
-    evaluator->choice.missed = !sp_trial_keeps(trial);
+    evaluator->choice.missed = !sp_setting_trial_keeps(trial);
     tell_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
                       : texel > finest                           ? "the coarsest that keeps the accuracy"
                                                                  : "the finest that auto takes");
@@ -97,7 +97,7 @@ static size_t pattern_count(const sp_layout *layout)
 }
 
 /* The same of all that a simulation does besides. */
-static double besides(const sp_trial *trial)
+static double besides(const sp_setting_trial *trial)
 {
     const sp_evaluator *evaluator = trial->evaluator;
     double triangle = evaluator->setup.cavity == SP_CAVITY_NONE ? TRIANGLE_OPEN : TRIANGLE;
@@ -112,7 +112,7 @@ static void fly(sp_evaluator *evaluator, sp_trajectory trajectory)
 }
 
 /* The share of the run that lines save at the very most. */
-static double most_saved(const sp_trial *trial)
+static double most_saved(const sp_setting_trial *trial)
 {
     size_t places = pattern_count(trial->layout) * trial->evaluator->patches.count;
     const sp_work parabolas = {places, places}, lines = {places, 0};
@@ -121,31 +121,32 @@ static double most_saved(const sp_trial *trial)
 }
 
 /* Evaluates by lines and compares. */
-static bool try_lines(sp_trial *trial, double *saved, sp_error *error)
+static bool try_lines(sp_setting_trial *trial, double *saved, sp_error *error)
 {
     const sp_work parabolas = trial->coverage->work;
     fly(trial->evaluator, SP_TRAJECTORY_LINE);
-    if (!sp_trial_run(trial, error))
+    if (!sp_setting_trial_run(trial, error))
         return false;
     double before = evaluating(&parabolas, false);
     *saved = (before - evaluating(&trial->coverage->work, true)) / (before + besides(trial));
-    if (*saved < SAVES || !sp_trial_keeps(trial) ||
+    if (*saved < SAVES || !sp_setting_trial_keeps(trial) ||
         trial->measured.misjudged > trial->evaluator->setup.fidelity.accuracy)
         fly(trial->evaluator, SP_TRAJECTORY_PARABOLA);
     return true;
 }
 
 /* Lines in place of parabolas, where that is worth it. */
-static bool choose_trajectory(sp_trial *trial, sp_error *error)
+static bool choose_trajectory(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     char *why = evaluator->choice.trajectory;
     double saved = most_saved(trial);
-    if (sp_trial_late(trial)) {
+    if (sp_setting_trial_late(trial)) {
         snprintf(why, SP_WHY, "parabolas: for lack of time lines were not tried");
         return true;
     }
-    if (saved >= SAVES && ((!trial->coverage && !sp_trial_run(trial, error)) || !try_lines(trial, &saved, error)))
+    if (saved >= SAVES &&
+        ((!trial->coverage && !sp_setting_trial_run(trial, error)) || !try_lines(trial, &saved, error)))
         return false;
     double points = 100 * trial->measured.estimate;
     if (evaluator->fidelity.trajectory == SP_TRAJECTORY_LINE)
@@ -179,17 +180,17 @@ static bool choose_unmeasured(sp_evaluator *evaluator, sp_error *error)
     return sp_texels_create(evaluator, NULL, error);
 }
 
-bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
     const sp_fidelity *open = &evaluator->setup.fidelity;
-    sp_trial trial = {.evaluator = evaluator, .layout = layout};
+    sp_setting_trial trial = {.evaluator = evaluator, .layout = layout};
     bool done;
     if (open->method == SP_METHOD_AUTO)
         tell_method(evaluator);
     if (evaluator->movers)
         return choose_unmeasured(evaluator, error);
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
-        done = sp_choose_forward(&trial, error);
+        done = sp_auto_forward(&trial, error);
     else if (!(open->texel > 0))
         done = choose_texel(&trial, error);
     else

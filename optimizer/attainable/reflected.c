@@ -1,4 +1,4 @@
-#include "attainable/bounce.h"
+#include "attainable/reflected.h"
 
 #include "attainable/coarse_patch.h"
 

@@ -1,6 +1,6 @@
 /* What only reflected liquid reaches. */
-#ifndef OPTIMIZER_BOUNCE_H
-#define OPTIMIZER_BOUNCE_H
+#ifndef OPTIMIZER_REFLECTED_H
+#define OPTIMIZER_REFLECTED_H
 
 #include "scoring/partial.h"
 
