@@ -24,7 +24,7 @@ const sp_sweep_set *sp_sweep_best(void)
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
 {
     assert(strength >= 0 && slack >= 0); /* strength 0: nothing covers alone, of goods that move */
-    return (sp_region){.outline = sp_outline_create(spray, frame, slack),
+    return (sp_region){.outline = sp_spray_outline(spray, frame, slack),
                        .alone_from = (float)((1 - slack) / strength),
                        .alone = (float)((1 + slack) / strength)};
 }

@@ -116,12 +116,19 @@ static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double r
     spray->inner = fmax(0, narrow->inner - (turn + slack));
 }
 
+static void outline(const sp_spray *spray, double slack, sp_outline *outline)
+{
+    outline->outer = sp_rim_at(spray->outer, slack);
+    if (spray->inner > 0)
+        outline->inner = sp_rim_at(spray->inner, -slack);
+}
+
 #define CONE                                                                                                           \
     .settle = settle, .intensity = intensity, .margin = margin, .margin_slope = margin_slope, .share = share,          \
     .direction = direction, .rim = sp_ring_rim, .angle_reaching = angle_reaching, .widen = widen
 
-const sp_form sp_full_cone = {.swept = true, .open = open_full, CONE};
-const sp_form sp_hollow_cone = {.swept = true, .open = open_hollow, CONE};
-const sp_form sp_solid_stream = {.swept = true, .stream = true, .open = open_full, CONE};
+const sp_form sp_full_cone = {.outline = outline, .open = open_full, CONE};
+const sp_form sp_hollow_cone = {.outline = outline, .open = open_hollow, CONE};
+const sp_form sp_solid_stream = {.outline = outline, .stream = true, .open = open_full, CONE};
 /* Of a cluster, whose members spray, nothing but what holds them. */
 const sp_form sp_cluster_body = {.period = 2 * M_PI, .open = open_full, CONE};

@@ -116,8 +116,19 @@ static void widen(sp_spray *spray, const sp_spray *narrow, double turn, double r
     spray->half_thickness = fmin(M_PI / 2, thickness + by);
 }
 
-const sp_form sp_flat_fan = {.swept = true,
-                             .period = M_PI,
+static void outline(const sp_spray *spray, double slack, sp_outline *outline)
+{
+    outline->flat = true;
+    if (spray->half_thickness < M_PI / 2)
+        outline->height = (float)(sin(spray->half_thickness) + slack);
+    outline->rise = (float)(1 / (SP_SPRAY_BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
+    outline->wide = cos(spray->half_width) < 0;
+    outline->all_round = spray->half_width >= M_PI;
+    outline->end_cosine = (float)cos(spray->half_width + slack);
+    outline->end_sine = (float)sin(spray->half_width + slack);
+}
+
+const sp_form sp_flat_fan = {.period = M_PI,
                              .open = open,
                              .settle = settle,
                              .intensity = intensity,
@@ -127,5 +138,6 @@ const sp_form sp_flat_fan = {.swept = true,
                              .share = share,
                              .direction = direction,
                              .rim = rim,
+                             .outline = outline,
                              .angle_reaching = angle_reaching,
                              .widen = widen};

@@ -1,16 +1,14 @@
 /* What every form of pattern answers about itself. A file like cone.c or fan.c answers for one form, and form.c lists
- * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. Of those that are swept
- * outline.c and outline_lanes.h know the outline. */
+ * them; all that anybody asks of a pattern (pattern.h, <sprayplan/nozzle.h>) is asked there. */
 #ifndef NOZZLE_FORM_H
 #define NOZZLE_FORM_H
 
-#include <sprayplan/nozzle.h>
+#include "outline.h"
 
 #include <assert.h>
 
 /* Directions are unit, in the nozzle's frame where none is given, else in the world. */
 typedef struct {
-    bool swept;    /* one region with as much liquid everywhere, of a known outline: see sp_type_is_uniform */
     bool gaps;     /* there may be directions without liquid between others */
     bool image;    /* sprays by an image */
     bool stream;   /* leaves in one piece */
@@ -31,9 +29,12 @@ typedef struct {
     /* Of a point of the unit square, so that equal areas get as much liquid. */
     sp_vec3 (*direction)(const sp_spray *spray, double u, double w);
     sp_vec3 (*rim)(const sp_spray *spray, int i, int count);
-    /* See sp_type_angle_reaching; swept forms only. */
+    /* One region with as much liquid everywhere, of an outline that sweeps know (see sp_spray_outline; all zero but
+     * for `height`, and not yet in a frame): see sp_type_is_uniform. NULL: none; its poses are traced one by one. */
+    void (*outline)(const sp_spray *spray, double slack, sp_outline *outline);
+    /* See sp_type_angle_reaching; of forms with an outline only. */
     double (*angle_reaching)(const sp_nozzle_type *type, double polar);
-    /* See sp_spray_widened: `spray` is as wide as any; swept forms only. */
+    /* See sp_spray_widened: `spray` is as wide as any; of forms with an outline only. */
     void (*widen)(sp_spray *spray, const sp_spray *narrow, double turn, double roll, double slack);
 } sp_form;
 

@@ -33,8 +33,8 @@ typedef struct {
     float narrowest;            /* cones widened: chord to the edge of the narrowest that is meant */
 } sp_outline;
 
-/* `slack`: how far beyond (rad) an edge may lie, for shares that must not be too small. */
-sp_outline sp_outline_create(const sp_spray *spray, const sp_frame *frame, double slack);
+/* A circle about the axis at `angle` (rad), `beyond` (chord) farther out. */
+sp_rim sp_rim_at(double angle, double beyond);
 /* Brings it into another frame. */
 void sp_outline_turn(sp_outline *outline, const sp_frame *frame);
 

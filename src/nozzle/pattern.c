@@ -99,10 +99,19 @@ double sp_margin_differences(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient
     return margin;
 }
 
+sp_outline sp_spray_outline(const sp_spray *spray, const sp_frame *frame, double slack)
+{
+    sp_outline outline = {.height = 2};
+    assert(slack >= 0 && sp_form_of(spray->kind)->outline);
+    sp_form_of(spray->kind)->outline(spray, slack, &outline);
+    sp_outline_turn(&outline, frame);
+    return outline;
+}
+
 sp_spray sp_spray_widened(const sp_spray *narrow, const sp_spray *wide, double turn, double roll, double slack)
 {
     sp_spray spray = *wide;
-    assert(narrow->kind == wide->kind && sp_form_of(wide->kind)->swept);
+    assert(narrow->kind == wide->kind && sp_form_of(wide->kind)->outline);
     sp_form_of(wide->kind)->widen(&spray, narrow, turn, roll, slack);
     sp_spray_settle(&spray);
     return spray;

@@ -9,7 +9,7 @@
  * angle and flow and turn it. What any other brings is traced pose by pose, and it stays at these. */
 static inline bool sp_type_is_uniform(const sp_nozzle_type *type)
 {
-    return sp_form_of(type->pattern)->swept;
+    return sp_form_of(type->pattern)->outline != NULL;
 }
 /* By how much (rad) a nozzle is rolled about its axis until it sprays the same again; 0: it sprays the same however it
  * is rolled. */
@@ -45,7 +45,7 @@ static inline bool sp_spray_is_round(const sp_spray *spray)
 /* It sprays as much in all directions, wherever its axis points. */
 static inline bool sp_spray_is_isotropic(const sp_spray *spray)
 {
-    return sp_form_of(spray->kind)->swept && sp_spray_is_round(spray) && spray->low <= 0 && spray->high >= M_PI;
+    return sp_form_of(spray->kind)->outline && sp_spray_is_round(spray) && spray->low <= 0 && spray->high >= M_PI;
 }
 /* Whether there may be directions within the region that get no liquid. */
 static inline bool sp_spray_has_gaps(const sp_spray *spray)
@@ -63,9 +63,12 @@ static inline double sp_spray_margin_slope(const sp_spray *spray, sp_vec3 direct
 {
     return sp_form_of(spray->kind)->margin_slope(spray, direction, gradient);
 }
-/* A spray, of one kind with two others that are swept and are opened to the least and the most angle, that holds all
- * directions of any opened to an angle between whose axis is turned by up to `turn` any way and which is rolled by up
- * to `roll`; by about `slack` more than it must. All in rad. */
+/* The outline of a posed spray whose type is uniform. `slack`: how far beyond (rad) an edge may lie, for shares that
+ * must not be too small. */
+sp_outline sp_spray_outline(const sp_spray *spray, const sp_frame *frame, double slack);
+/* A spray, of one kind with two others that have an outline and are opened to the least and the most angle, that holds
+ * all directions of any opened to an angle between whose axis is turned by up to `turn` any way and which is rolled by
+ * up to `roll`; by about `slack` more than it must. All in rad. */
 sp_spray sp_spray_widened(const sp_spray *narrow, const sp_spray *wide, double turn, double roll, double slack);
 /* Direction i of `count`, an even number, along the region's edge, unit, in the nozzle's frame. */
 sp_vec3 sp_spray_rim(const sp_spray *spray, int i, int count);

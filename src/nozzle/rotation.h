@@ -27,7 +27,7 @@ static inline bool sp_type_leaves_as_stream(const sp_nozzle_type *type)
 /* Whether a jet that turns may be of this pattern. */
 static inline bool sp_pattern_turns(sp_pattern jet)
 {
-    return jet < sp_form_count && sp_form_of(jet)->swept;
+    return jet < sp_form_count && sp_form_of(jet)->outline;
 }
 /* Whether jets on a hub may be of this pattern: those that spray the same however they are rolled. */
 static inline bool sp_pattern_fits_hub(sp_pattern jet)
