@@ -11,19 +11,7 @@ copy=$root/build-mutants/tree
 build=$copy/build-strict
 export OMP_WAIT_POLICY=passive
 
-declare -A file edit tests says
-ids=()
-while read -r key value; do
-    case "$key" in
-    '' | '#'*) ;;
-    mutant) id=$value ids+=("$value") ;;
-    file) file[$id]=$value ;;
-    sed) edit[$id]=$value ;;
-    tests) tests[$id]=$value ;;
-    says) says[$id]=$value ;;
-    *) echo "tests/mutants/list: what is $key?" >&2 && exit 2 ;;
-    esac
-done <tests/mutants/list
+. tests/mutants/read.sh
 [ $# -eq 0 ] || ids=("$@")
 
 # What differs gets the time of now, so that nothing built of a mutant that was cut short is kept.
