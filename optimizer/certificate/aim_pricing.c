@@ -28,7 +28,7 @@ typedef struct {
 
 /* One thread's own. */
 typedef struct {
-    sp_desk *desk;
+    sp_view_buffer *buffer;
     const sp_view *view;
     float *worth; /* [largest view + SP_LANES] */
     float total[SP_BINS];
@@ -228,7 +228,7 @@ static bool turn_to(const sp_aim_pricing *pricing, scratch *own, const sp_aim_ce
     const sp_aim_kind *kind = &pricing->kinds->items[cell->kind];
     for (size_t i = 0; i < CULLS; i++)
         own->culls[i].used = false;
-    own->view = sp_visibility_look(search->visibility, cell->site, kind->launch, &own->desk);
+    own->view = sp_visibility_look(search->visibility, cell->site, kind->launch, &own->buffer);
     if (!own->view->start)
         return false;
     sp_pose_pricing_worth(pricing->poses, own->view, (float)least_strength_of(pricing, cell),
@@ -302,7 +302,7 @@ static bool price_open(sp_aim_pricing *pricing, const sp_multipliers *u, sp_erro
             price_alike(pricing, &pricing->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
     }
     for (int i = 0; i < pricing->threads; i++)
-        sp_visibility_leave(pricing->search->visibility, &pricing->scratches[i].desk);
+        sp_visibility_release(pricing->search->visibility, &pricing->scratches[i].buffer);
     pricing->looked_at += open->count;
     sp_ranks_rejoin(ranks_of(pricing));
     return share_open(pricing, error);
@@ -437,10 +437,10 @@ static bool hand_out_one(sp_aim_pricing *pricing, const sp_aim_cell *cell, sp_ro
     sp_posed_spray posed = {.spray = sp_aim_cell_spray(&middle, kind, 0),
                             .frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up),
                             .strength = strength_of(pricing, cell)};
-    sp_desk *desk = NULL;
-    const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->launch, &desk);
+    sp_view_buffer *buffer = NULL;
+    const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->launch, &buffer);
     sp_field_view(search, view, &posed, pricing->field);
-    sp_visibility_leave(search->visibility, &desk);
+    sp_visibility_release(search->visibility, &buffer);
     return sp_pose_pricing_row(pricing->poses, pricing->field, KEY_FIRST + pricing->keys++, pricing->ports[site->mount],
                                tier_of(pricing, cell), rows, error);
 }
@@ -491,6 +491,6 @@ double sp_aim_pricing_upper(sp_aim_pricing *pricing, const sp_aim_cell *cell, co
     if (turn_to(pricing, own, cell, u))
         upper = reach_price(pricing, own, cell, sp_aim_cell_disc(cell, site, tilt_of(pricing, cell->site)),
                             SP_COUNT_GENEROUS);
-    sp_visibility_leave(pricing->search->visibility, &own->desk);
+    sp_visibility_release(pricing->search->visibility, &own->buffer);
     return upper;
 }

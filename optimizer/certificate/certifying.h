@@ -13,11 +13,12 @@ typedef struct {
     bool had_turn; /* in this pass */
 } sp_certified_point;
 
-/* What may be done, in words of sp_tuples: in all, and one by one at a point; and for it pricings of all, and
- * candidates that its layouts are made of. */
+/* How much may be done for bounds. Work is counted in words of 64 texels, as sp_tuples counts it. */
 typedef struct {
-    double work, each;
-    size_t rounds, candidates;
+    double work;       /* for all points together */
+    double each;       /* for branch and bound at one point */
+    size_t rounds;     /* pricings of all candidates at one point */
+    size_t candidates; /* that the layouts of branch and bound are made of, at one point */
 } sp_effort;
 
 typedef struct {
@@ -37,13 +38,13 @@ void sp_certifying_free(sp_certifying *c);
 /* False once cancelled or out of time, which leaves the proposal as good as it is. `done`: how far the certificate is.
  */
 bool sp_certifying_has_time(sp_certifying *c, double done);
-/* What pricing all candidates so often takes, in words of sp_tuples. */
+/* The work (see sp_effort) that pricing all candidates so often takes. */
 double sp_pricing_work(const sp_certifying *c, size_t rounds);
 
 /* Solves at this water and prices all candidates, `rounds` times. */
 bool sp_lower_bound(sp_certifying *c, size_t water, size_t rounds, sp_error *error);
-/* The same, `open` of whose bound nothing found comes up to. Where that is wide multipliers are sought on groups of
- * texels first: these get further in as much time, but do not see what a narrow gap is about. */
+/* The same where the bound is `open` m² above the best layout found. Where that gap is wide, the solve begins on groups
+ * of texels: iterations on these get further in as much time, but cannot tell what makes up a narrow gap. */
 bool sp_lower_open_bound(sp_certifying *c, size_t water, double open, size_t rounds, sp_error *error);
 /* Looks at the layouts of so much water one by one, by the multipliers that the bound was last proved with, for those
  * that cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that

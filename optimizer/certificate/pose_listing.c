@@ -61,7 +61,7 @@ static void price_block(sp_pose_pricing *pricing, sp_pose_scratch *own, size_t b
     memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
     if (!memchr(alive + poses->start, 1, end - poses->start))
         return;
-    const sp_view *view = sp_visibility_look(search->visibility, poses->site, variant->launch, &own->desk);
+    const sp_view *view = sp_visibility_look(search->visibility, poses->site, variant->launch, &own->buffer);
     if (!view->start && sp_type_is_uniform(variant->type))
         return;
     sp_region region = sp_pose_prepare(pricing, own, view, variant, &frame, u);
@@ -86,7 +86,7 @@ static bool price_list(void *user, const sp_multipliers *u, const uint8_t *alive
                 price_block(pricing, &pricing->scratches[omp_get_thread_num()], order->block_of[site * variants + k], u,
                             alive, price);
     for (int i = 0; i < pricing->threads; i++)
-        sp_visibility_leave(pricing->search->visibility, &pricing->scratches[i].desk);
+        sp_visibility_release(pricing->search->visibility, &pricing->scratches[i].buffer);
     sp_ranks_rejoin(sp_pose_ranks(pricing));
     sp_pose_price_found(order, u, alive, price);
     return sp_pose_share_prices(pricing, price, false, error);

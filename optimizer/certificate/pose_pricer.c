@@ -64,7 +64,7 @@ static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t 
         *found = (sp_pose_best){.price = 0};
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || pricing->search->port_taken[mount])
             continue;
-        const sp_view *view = sp_visibility_look(pricing->search->visibility, site, variant->launch, &own->desk);
+        const sp_view *view = sp_visibility_look(pricing->search->visibility, site, variant->launch, &own->buffer);
         if (!view->start && sp_type_is_uniform(variant->type))
             continue;
         sp_region region = sp_pose_prepare(pricing, own, view, variant, &frame, u);
@@ -115,7 +115,7 @@ static void price_sites(sp_pose_pricing *pricing, const sp_multipliers *u, const
             price_site(pricing, &pricing->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, stride, offers);
     sp_ranks_rejoin(sp_pose_ranks(pricing));
     for (int i = 0; i < pricing->threads; i++)
-        sp_visibility_leave(pricing->search->visibility, &pricing->scratches[i].desk);
+        sp_visibility_release(pricing->search->visibility, &pricing->scratches[i].buffer);
 }
 
 static bool price_poses(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,

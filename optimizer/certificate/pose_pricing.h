@@ -31,7 +31,7 @@ typedef struct {
     float *worth; /* [2 x (arrivals of a view + 2 SP_LANES)], price that it brings to a variant */
     float total[SP_BINS];
     sp_cull cull;
-    sp_desk *desk;
+    sp_view_buffer *buffer;
     const sp_multipliers *multipliers; /* of now */
     sp_field_sweeper fields;           /* of which `worth` holds the arrays */
     float *field;                      /* [field_count] */

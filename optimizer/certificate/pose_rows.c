@@ -88,8 +88,8 @@ static void sweep_pose(const sp_pose_pricing *pricing, sp_pose_scratch *own, sp_
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
-    sp_desk *desk = NULL;
-    own->fields.view = sp_visibility_look(search->visibility, pose.site, variant->launch, &desk);
+    sp_view_buffer *buffer = NULL;
+    own->fields.view = sp_visibility_look(search->visibility, pose.site, variant->launch, &buffer);
     memset(own->field, 0, search->field_count * sizeof *own->field);
     if (own->fields.view->start) {
         sp_region region =
@@ -97,7 +97,7 @@ static void sweep_pose(const sp_pose_pricing *pricing, sp_pose_scratch *own, sp_
         sp_cull_create(&search->visibility->bins, own->fields.view, &variant->spray, SP_COUNT_SHARE, &own->cull);
         sp_field_sweep(search, &own->fields, variant, &region, own->field);
     }
-    sp_visibility_leave(search->visibility, &desk);
+    sp_visibility_release(search->visibility, &buffer);
 }
 
 bool sp_pose_pricing_add(const sp_pose_pricing *pricing, sp_pose pose, sp_rows *rows, sp_error *error)

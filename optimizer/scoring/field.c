@@ -130,12 +130,12 @@ double sp_variant_strength(const sp_search *search, const sp_variant *variant)
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
     const sp_variant *variant = &search->candidates->variants[pose.variant];
-    sp_desk *desk = NULL;
+    sp_view_buffer *buffer = NULL;
     if (!sp_type_is_uniform(variant->type)) {
         sp_footprint_field(search, sp_footprints_look(search->footprints, pose), field);
         return;
     }
-    const sp_view *view = sp_visibility_look(search->visibility, pose.site, variant->launch, &desk);
+    const sp_view *view = sp_visibility_look(search->visibility, pose.site, variant->launch, &buffer);
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_posed_spray posed = {.spray = variant->spray,
@@ -144,7 +144,7 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
                             .type = variant->type,
                             .flow = variant->flow};
     sp_field_view(search, view, &posed, field);
-    sp_visibility_leave(search->visibility, &desk);
+    sp_visibility_release(search->visibility, &buffer);
 }
 
 /* What is in reach of a nozzle, where `wet` is given only on the patches that are dry, unless film runs from one to the

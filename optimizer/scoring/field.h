@@ -34,9 +34,10 @@ void sp_field_end(const sp_field_making *making);
 
 /* Field of a spray at a view's mounting point; its strength is per transfer as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field);
-/* The same of a candidate pose; of any nozzle that sweeps know, traced anew, where `wet` [patch_count] is given (NULL:
- * everywhere) only on the patches that a partial layout leaves dry so: what the nozzle adds to it is the same. */
+/* The same of a candidate pose. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
+/* The same of any nozzle whose type is uniform, traced anew. With `wet` [patch_count], a partial layout's (NULL: none),
+ * patches that it wets enough are left out: what the nozzle adds to that layout stays the same. */
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const float *wet, float *field, sp_error *error);
 /* One thread's memory for fields by sweeps, which are a little less exact and made much faster. */
 typedef struct {

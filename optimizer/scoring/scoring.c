@@ -44,14 +44,14 @@ sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *err
 
 int sp_sweeper_threads(const sp_search *search)
 {
-    return search->visibility->desk_count;
+    return search->visibility->buffer_count;
 }
 
 void sp_sweepers_forget(sp_sweeper *sweepers, int count)
 {
     for (int i = 0; i < count; i++) {
         if (sweepers[i].search)
-            sp_visibility_leave(sweepers[i].search->visibility, &sweepers[i].desk);
+            sp_visibility_release(sweepers[i].search->visibility, &sweepers[i].buffer);
         sweepers[i].search = NULL;
     }
 }
@@ -73,7 +73,7 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_part
 {
     if (sweeper->search == search && sweeper->site == site && sweeper->launch == launch)
         return;
-    const sp_view *view = sp_visibility_look(search->visibility, site, launch, &sweeper->desk);
+    const sp_view *view = sp_visibility_look(search->visibility, site, launch, &sweeper->buffer);
     sweeper->search = search;
     sweeper->variant = SIZE_MAX;
     sweeper->view = view;

@@ -17,7 +17,7 @@ typedef struct {
     float room_total[SP_BINS], gain_total[SP_BINS];
     const sp_search *search; /* what it looks at, NULL: nothing */
     const sp_view *view;
-    sp_desk *desk; /* NULL, or what the view lies on */
+    sp_view_buffer *buffer; /* NULL, or what the view lies on */
     uint32_t site;
     size_t launch;
     size_t variant;   /* SIZE_MAX: none */
@@ -26,13 +26,13 @@ typedef struct {
     sp_cull cull;     /* of the variant */
 } sp_sweeper;
 
-/* Threads that may score at a time: no more than memory has desks for. */
+/* Threads that may score at a time: no more than memory has buffers for. */
 int sp_sweeper_threads(const sp_search *search);
 /* One for each of `count` threads; NULL on error. */
 sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *error);
 void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
-/* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
- * at its end, before anyone else looks. */
+/* Says that what is wet, or the search's credit, has changed, and leaves the buffer: all sweepers of a loop are to
+ * forget at its end, before anyone else looks. */
 void sp_sweepers_forget(sp_sweeper *sweepers, int count);
 /* Turns to what a site's nozzles of a launch would add to a partial layout. */
 void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, uint32_t site,

@@ -9,15 +9,15 @@
 #include "deadline/deadline.h"
 
 /* Where one view at a time is worked out that is not kept. */
-typedef struct sp_desk {
+typedef struct sp_view_buffer {
     void *block;
     sp_view view;
     size_t at; /* which view that is; SIZE_MAX: none */
-    struct sp_desk *next;
-} sp_desk;
+    struct sp_view_buffer *next;
+} sp_view_buffer;
 
-/* Desks that nobody has. */
-typedef struct sp_desks sp_desks;
+/* The buffers, each in use or idle. */
+typedef struct sp_view_buffers sp_view_buffers;
 
 typedef struct {
     const sp_evaluator *evaluator; /* borrowed, as the next three: the coarse one that is traced on */
@@ -31,11 +31,11 @@ typedef struct {
     bool *known;     /* [site_count x launch_count], traced before the time was up */
     uint8_t *sights; /* [site_count x launch_count][sight_bytes], bit 2 patch + arc: whether the way is free */
     size_t sight_bytes;
-    double memory;  /* bytes that the options allow it and footprints together */
-    double prints;  /* of them, what footprints come to at most */
-    double bytes;   /* most that views, desks and tracing take at any time; the rest is left to footprints */
-    int desk_count; /* threads that may look at a time */
-    sp_desks *desks;
+    double memory;    /* bytes that the options allow it and footprints together */
+    double prints;    /* of them, what footprints come to at most */
+    double bytes;     /* most that views, buffers and tracing take at any time; the rest is left to footprints */
+    int buffer_count; /* threads that may look at a time */
+    sp_view_buffers *buffers;
     sp_bins bins;
 } sp_visibility;
 
@@ -58,13 +58,14 @@ void sp_visibility_free(sp_visibility *visibility);
 /* False where a look has failed since; what was looked at then was empty. */
 bool sp_visibility_sound(const sp_visibility *visibility, sp_error *error);
 
-/* A view; one without `start` where nothing is known. *desk, NULL or from an earlier look, is what the view may lie on:
- * it holds until the next look with the same desk or until that is left. Waits for a desk where others have all, so no
- * thread may hold two, nor more than desk_count threads hold one and wait for each other. Safe to call from many
- * threads. */
-const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t launch, sp_desk **desk);
-/* Gives the desk back, if there is one. */
-void sp_visibility_leave(const sp_visibility *visibility, sp_desk **desk);
+/* The view of a site, without `start` where nothing is known. A view that was not kept is traced again into *buffer,
+ * which is NULL or from an earlier look: it is valid until the next look with that buffer, or its release. Blocks while
+ * all buffers are in use, so a thread that held two, or more than buffer_count threads that held one while they waited
+ * for each other, would deadlock. Thread-safe otherwise. */
+const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t launch,
+                                  sp_view_buffer **buffer);
+/* Gives the buffer back and sets *buffer to NULL; nothing where it is NULL. */
+void sp_visibility_release(const sp_visibility *visibility, sp_view_buffer **buffer);
 
 static inline bool sp_visibility_known(const sp_visibility *visibility, uint32_t site, size_t launch)
 {

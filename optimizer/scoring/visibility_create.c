@@ -85,7 +85,7 @@ void sp_visibility_free(sp_visibility *visibility)
 {
     for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->launch_count; i++)
         free(visibility->views[i].start);
-    sp_desks_destroy(visibility->desks, visibility->desk_count);
+    sp_view_buffers_destroy(visibility->buffers, visibility->buffer_count);
     free(visibility->views);
     free(visibility->known);
     free(visibility->sights);

@@ -30,8 +30,8 @@ static size_t most_cells(const sp_evaluator *evaluator)
     return CELLS + (positions > 1 ? 2 * SP_SIGHTING_PART * positions : 0);
 }
 
-/* Bytes that one desk takes for views of so many arrivals: the view, its sightings and the tracing. */
-static double desk_bytes(size_t arrivals, size_t cells, bool any_marked)
+/* Bytes that one buffer takes for views of so many arrivals: the view, its sightings and the tracing. */
+static double buffer_bytes(size_t arrivals, size_t cells, bool any_marked)
 {
     return (double)sp_view_bytes(arrivals, any_marked) + (double)arrivals * sizeof(sp_sighting) +
            (double)sp_sightings_work(cells);
@@ -193,7 +193,7 @@ static bool survey_all(sp_survey *survey, sp_deadline *deadline, sp_error *error
     sp_visibility *visibility = survey->visibility;
     const sp_place_options *options = visibility->options;
     size_t sites = visibility->site_count, most = most_arrivals(visibility->evaluator);
-    double room = room_of(visibility), work = desk_bytes(most, most_cells(visibility->evaluator), true);
+    double room = room_of(visibility), work = buffer_bytes(most, most_cells(visibility->evaluator), true);
     survey->kept = (double)(sites * visibility->launch_count) * (double)visibility->sight_bytes;
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > room)
@@ -218,17 +218,17 @@ static bool survey_all(sp_survey *survey, sp_deadline *deadline, sp_error *error
             return false;
         visibility->bytes =
             fmax(visibility->bytes,
-                 survey->kept + (double)survey->threads * desk_bytes(visibility->largest, visibility->cells, true));
+                 survey->kept + (double)survey->threads * buffer_bytes(visibility->largest, visibility->cells, true));
     }
     return true;
 }
 
-/* Keeps as many more views as there is room for besides the desks. */
+/* Keeps as many more views as there is room for besides the buffers. */
 static bool fill(sp_survey *survey, double room, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     size_t views = visibility->site_count * visibility->launch_count;
-    survey->threads = visibility->desk_count;
+    survey->threads = visibility->buffer_count;
     for (size_t first = 0, end; first < views && survey->failure.kind == SP_OK; first = end) {
         bool chosen[BATCH] = {0};
         end = first + BATCH < views ? first + BATCH : views;
@@ -245,26 +245,27 @@ static bool fill(sp_survey *survey, double room, sp_error *error)
     return pass_on(&survey->failure, error);
 }
 
-/* As many desks as threads and memory allow, and with what is left as many views as fit. */
+/* As many buffers as threads and memory allow, and with what is left as many views as fit. */
 static bool furnish(sp_survey *survey, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     size_t views = visibility->site_count * visibility->launch_count, missing = 0;
-    double room = room_of(visibility), work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
+    double room = room_of(visibility),
+           work = buffer_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
     double sights = (double)views * (double)visibility->sight_bytes, needed = sights + work;
     if (needed > room)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "memory: %g bytes found, expected %.0f or more for what is in sight of %zu mounting points and "
                        "to trace one of them",
                        visibility->memory, needed + fmin(needed, visibility->prints), visibility->site_count);
-    visibility->desk_count = (int)fmin(sp_threads(&visibility->options->run), floor((room - sights) / work));
-    double desks = visibility->desk_count * work;
-    if (!fill(survey, room - desks, error))
+    visibility->buffer_count = (int)fmin(sp_threads(&visibility->options->run), floor((room - sights) / work));
+    double buffers = visibility->buffer_count * work;
+    if (!fill(survey, room - buffers, error))
         return false;
     for (size_t at = 0; at < views; at++)
         missing += visibility->known[at] && !visibility->views[at].start;
-    visibility->bytes = fmax(visibility->bytes, survey->kept + (missing ? desks : 0));
-    return !missing || sp_desks_create(visibility, survey->twice_at_all, error);
+    visibility->bytes = fmax(visibility->bytes, survey->kept + (missing ? buffers : 0));
+    return !missing || sp_view_buffers_create(visibility, survey->twice_at_all, error);
 }
 
 bool sp_visibility_survey(sp_visibility *visibility, sp_deadline *deadline, sp_error *error)

@@ -65,7 +65,7 @@ double sp_evaluator_jets_met(const sp_evaluator *evaluator)
 }
 
 /* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
-static sp_texel_limits density_limits(const sp_evaluator *evaluator)
+static sp_texel_limits texel_limits(const sp_evaluator *evaluator)
 {
     const sp_fidelity *fidelity = &evaluator->fidelity;
     sp_texel_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
@@ -107,13 +107,13 @@ static bool cut_patches(sp_evaluator *evaluator, sp_error *error)
 }
 
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
-static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_sizes *density,
+static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_sizes *texel_sizes,
                         sp_error *error)
 {
     double texel = evaluator->fidelity.texel;
-    double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
-    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
-    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error) &&
+    double page = fmin(fmax(ceil(texel_sizes->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
+    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = texel_sizes->texel};
+    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, texel_sizes->texels, error) &&
         set_positions(evaluator, texel, error))
         evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
     return cut_patches(evaluator, error);
@@ -192,22 +192,22 @@ static bool lay(sp_evaluator *evaluator, sp_error *error)
 
 bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_error *error)
 {
-    sp_texel_sizes density;
+    sp_texel_sizes texel_sizes;
     sp_fidelity *fidelity = &evaluator->fidelity;
-    sp_texel_limits limits = density_limits(evaluator);
+    sp_texel_limits limits = texel_limits(evaluator);
     sp_texels_free(evaluator);
     if (is_laid(evaluator))
         return lay(evaluator, error);
     if (!evaluator->origin && !make_charts(evaluator, error))
         return false;
-    if (!(fine ? sp_texel_sizes_like(evaluator, evaluator->charts, fine, &density, error)
-               : sp_texel_sizes_create(evaluator, evaluator->charts, &limits, &density, error)))
+    if (!(fine ? sp_texel_sizes_like(evaluator, evaluator->charts, fine, &texel_sizes, error)
+               : sp_texel_sizes_create(evaluator, evaluator->charts, &limits, &texel_sizes, error)))
         return false;
     if (fidelity->jets == 0)
         fidelity->jets =
-            sp_jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
-    bool done = build_atlas(evaluator, evaluator->charts, &density, error);
-    sp_texel_sizes_free(&density);
+            sp_jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : texel_sizes.finest);
+    bool done = build_atlas(evaluator, evaluator->charts, &texel_sizes, error);
+    sp_texel_sizes_free(&texel_sizes);
     return done;
 }
 

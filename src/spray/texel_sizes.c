@@ -100,9 +100,9 @@ static double spare_length(chart_length *lengths, size_t count, double spare)
 
 /* From girths to lengths of texels. `lengths` is room for the charts. */
 static void choose(const chart_size *sizes, chart_length *lengths, size_t count, const sp_texel_limits *limits,
-                   sp_texel_sizes *density)
+                   sp_texel_sizes *texel_sizes)
 {
-    double *length = density->texel, texel = limits->texel;
+    double *length = texel_sizes->texel, texel = limits->texel;
     for (size_t c = 0; c < count; c++) {
         length[c] = fmin(texel, fmax(fmax(length[c] / AROUND, limits->least), span(&sizes[c]) / limits->page));
         lengths[c] = (chart_length){length[c], sizes[c].counted};
@@ -115,61 +115,61 @@ static void choose(const chart_size *sizes, chart_length *lengths, size_t count,
 }
 
 /* What follows from the lengths. */
-static void conclude(const chart_size *sizes, size_t count, sp_texel_sizes *density)
+static void conclude(const chart_size *sizes, size_t count, sp_texel_sizes *texel_sizes)
 {
-    density->finest = INFINITY;
+    texel_sizes->finest = INFINITY;
     for (size_t c = 0; c < count; c++) {
-        double length = density->texel[c];
-        density->finest = sizes[c].counted > 0 ? fmin(density->finest, length) : density->finest;
-        density->texels += sizes[c].area / (length * length);
-        density->longest = fmax(density->longest, span(&sizes[c]) / length);
+        double length = texel_sizes->texel[c];
+        texel_sizes->finest = sizes[c].counted > 0 ? fmin(texel_sizes->finest, length) : texel_sizes->finest;
+        texel_sizes->texels += sizes[c].area / (length * length);
+        texel_sizes->longest = fmax(texel_sizes->longest, span(&sizes[c]) / length);
     }
 }
 
 bool sp_texel_sizes_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_limits *limits,
-                           sp_texel_sizes *density, sp_error *error)
+                           sp_texel_sizes *texel_sizes, sp_error *error)
 {
-    *density = (sp_texel_sizes){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
-    if (!density->texel)
+    *texel_sizes = (sp_texel_sizes){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
+    if (!texel_sizes->texel)
         return false;
     chart_size *sizes = malloc((charts->chart_count + 1) * sizeof *sizes);
     chart_length *lengths = malloc((charts->chart_count + 1) * sizeof *lengths);
     bool done = sizes && lengths;
     if (done) {
         measure(evaluator, charts, sizes);
-        choose(sizes, lengths, charts->chart_count, limits, density);
-        conclude(sizes, charts->chart_count, density);
+        choose(sizes, lengths, charts->chart_count, limits, texel_sizes);
+        conclude(sizes, charts->chart_count, texel_sizes);
     }
     free(sizes);
     free(lengths);
     if (done)
         return true;
-    sp_texel_sizes_free(density);
+    sp_texel_sizes_free(texel_sizes);
     return sp_fail_memory(error);
 }
 
 bool sp_texel_sizes_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
-                         sp_texel_sizes *density, sp_error *error)
+                         sp_texel_sizes *texel_sizes, sp_error *error)
 {
     size_t count = charts->chart_count;
-    *density = (sp_texel_sizes){.texel = malloc((count + 1) * sizeof *density->texel)};
+    *texel_sizes = (sp_texel_sizes){.texel = malloc((count + 1) * sizeof *texel_sizes->texel)};
     chart_size *sizes = malloc((count + 1) * sizeof *sizes);
-    bool done = density->texel && sizes;
+    bool done = texel_sizes->texel && sizes;
     for (size_t c = 0; done && c < count; c++)
-        density->texel[c] = fine->atlas->chart_texel[c] / fine->fidelity.texel * evaluator->fidelity.texel;
+        texel_sizes->texel[c] = fine->atlas->chart_texel[c] / fine->fidelity.texel * evaluator->fidelity.texel;
     if (done) {
         measure(evaluator, charts, sizes);
-        conclude(sizes, count, density);
+        conclude(sizes, count, texel_sizes);
     }
     free(sizes);
     if (done)
         return true;
-    sp_texel_sizes_free(density);
+    sp_texel_sizes_free(texel_sizes);
     return sp_fail_memory(error);
 }
 
-void sp_texel_sizes_free(sp_texel_sizes *density)
+void sp_texel_sizes_free(sp_texel_sizes *texel_sizes)
 {
-    free(density->texel);
-    *density = (sp_texel_sizes){0};
+    free(texel_sizes->texel);
+    *texel_sizes = (sp_texel_sizes){0};
 }

@@ -14,8 +14,8 @@ typedef struct {
 typedef struct {
     double texel; /* m, on what is not thin */
     double least; /* m, no shorter ones */
-    double spare; /* the smallest thin charts, with no more than this share of what is cleaned, have no shorter ones
-                     than the others */
+    double spare; /* charts that would get the shortest texels, and together have no more than this share of what
+                     is cleaned, get the shortest ones of the other charts instead */
     double page;  /* texels: no chart is longer for having shorter ones */
 } sp_texel_limits;
 
@@ -24,10 +24,10 @@ typedef struct {
  * parts (and more than 50,000). All other charts share no more than a quarter as many as these have, and fit the page.
  * Needs the wet sides. */
 bool sp_texel_sizes_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_texel_limits *limits,
-                           sp_texel_sizes *density, sp_error *error);
+                           sp_texel_sizes *texel_sizes, sp_error *error);
 /* In proportion to those of a finer evaluator: what is thin there is here, and nothing else. */
 bool sp_texel_sizes_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
-                         sp_texel_sizes *density, sp_error *error);
-void sp_texel_sizes_free(sp_texel_sizes *density);
+                         sp_texel_sizes *texel_sizes, sp_error *error);
+void sp_texel_sizes_free(sp_texel_sizes *texel_sizes);
 
 #endif

@@ -329,7 +329,7 @@ static void views_keep_within_memory(void **state)
         for (int threads = 1; threads <= 2; threads++) {
             memories[i] = whole * (0.9 - 0.25 * (double)i);
             outlook scarce;
-            sp_desk *desk = NULL;
+            sp_view_buffer *buffer = NULL;
             j.options.memory = memories[i];
             j.options.run.threads = threads;
             look_around(&j, &scarce);
@@ -340,12 +340,12 @@ static void views_keep_within_memory(void **state)
                              sp_evaluator_patches(plenty.visibility.evaluator)->count);
             for (uint32_t v = 0; v < views; v++) {
                 const sp_view *expected = &plenty.visibility.views[v];
-                const sp_view *found = sp_visibility_look(&scarce.visibility, v, 0, &desk);
+                const sp_view *found = sp_visibility_look(&scarce.visibility, v, 0, &buffer);
                 assert_int_equal(found->count, expected->count);
                 assert_memory_equal(found->start, expected->start, sp_view_bytes(found->count, found->twice != NULL));
             }
-            assert_non_null(desk);
-            sp_visibility_leave(&scarce.visibility, &desk);
+            assert_non_null(buffer);
+            sp_visibility_release(&scarce.visibility, &buffer);
             look_away(&scarce);
         }
     look_away(&plenty);

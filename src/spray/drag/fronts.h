@@ -60,7 +60,9 @@ typedef struct {
     sp_vec3 slope;   /* of it, by the end's place */
     double lever;    /* m, as a flight's, of the flight there */
     double arriving; /* m/s, its speed */
-    double turn; /* m²/s/√m: by its product with √margin flights sweep area in their plane, per rad of direction */
+    /* m²/s/√m: flights that end there sweep turn √margin, in m²/s, of their plane per rad of elevation, so that what
+     * arrives grows as 1/√margin towards the limit. */
+    double turn;
 } sp_front_limit;
 /* As sp_fronts_flights. *margin is no more than that margin; it is not to be trusted where there are no flights. */
 int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin);
