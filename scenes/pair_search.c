@@ -52,21 +52,21 @@ static void widen_pool(placement *p)
 static pair *list_pairs(const sp_coverage_matrix *matrix, double budget, size_t *count)
 {
     sp_error error = {0};
-    sp_lineup lineup;
+    sp_selection selection;
     pair *pairs = malloc((matrix->row_count + 1) * sizeof *pairs);
-    if (!pairs || !sp_lineup_create(matrix, &lineup, &error))
+    if (!pairs || !sp_selection_create(matrix, &selection, &error))
         fail(&error);
     *count = 0;
     for (uint32_t r = 0; r < matrix->row_count; r++) {
         double gain;
-        sp_lineup_set(&lineup, NULL, 0);
-        if (!(sp_lineup_gain(&lineup, r, budget) > 0))
+        sp_selection_set(&selection, NULL, 0);
+        if (!(sp_selection_gain(&selection, r, budget) > 0))
             continue;
-        sp_lineup_add(&lineup, r);
-        uint32_t partner = sp_lineup_best(&lineup, 0, 0, budget, &gain);
-        pairs[(*count)++] = (pair){{r, partner}, gain > 0 ? 2 : 1, lineup.covered + fmax(gain, 0)};
+        sp_selection_add(&selection, r);
+        uint32_t partner = sp_selection_best(&selection, 0, 0, budget, &gain);
+        pairs[(*count)++] = (pair){{r, partner}, gain > 0 ? 2 : 1, selection.covered + fmax(gain, 0)};
     }
-    sp_lineup_free(&lineup);
+    sp_selection_free(&selection);
     qsort(pairs, *count, sizeof *pairs, by_covered);
     return pairs;
 }
@@ -86,12 +86,13 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix
 {
     sp_error error = {0};
     sp_sights sights;
-    sp_lineup lineup;
+    sp_selection selection;
     sp_partial partial;
-    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(matrix, &lineup, &error))
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) ||
+        !sp_selection_create(matrix, &selection, &error))
         fail(&error);
-    sp_lineup_set(&lineup, start->row, start->count);
-    if (!sp_lineup_partial(&lineup, &partial, &error))
+    sp_selection_set(&selection, start->row, start->count);
+    if (!sp_selection_partial(&selection, &partial, &error))
         fail(&error);
     sp_tuned_settle(tuned, &partial);
     covered[0] = partial.covered;
@@ -101,7 +102,7 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix
         fail(&error);
     covered[1] = partial.covered;
     sp_partial_free(&partial);
-    sp_lineup_free(&lineup);
+    sp_selection_free(&selection);
     sp_sights_free(&sights);
 }
 

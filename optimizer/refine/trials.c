@@ -82,21 +82,21 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
     const sp_tuned *tuned = &refining->local_search.tuned;
     size_t count = trials->count, nozzle_count;
     double *budgets = malloc((count + 1) * sizeof *budgets);
-    sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
+    sp_selection *selections = calloc(count + 1, sizeof *selections);
     const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
     sp_coverage_matrix matrix = {0};
-    bool done = (budgets && lineups && nozzles) || sp_fail_memory(refining->error);
+    bool done = (budgets && selections && nozzles) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < count; i++)
         budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
     done = done &&
            sp_coverage_matrix_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &matrix, refining->error) &&
-           sp_enumerate_partially(&matrix, budgets, count, refining->deadline, lineups, refining->error);
+           sp_enumerate_partially(&matrix, budgets, count, refining->deadline, selections, refining->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_lineup_partial(&lineups[i], &trials->items[i].other, refining->error);
-    for (size_t i = 0; lineups && i < count; i++)
-        sp_lineup_free(&lineups[i]);
+        done = sp_selection_partial(&selections[i], &trials->items[i].other, refining->error);
+    for (size_t i = 0; selections && i < count; i++)
+        sp_selection_free(&selections[i]);
     free(budgets);
-    free(lineups);
+    free(selections);
     free(nozzles);
     sp_coverage_matrix_free(&matrix);
     return done;

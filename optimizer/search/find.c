@@ -86,11 +86,11 @@ static bool shrink_best(const sp_finding *finding)
 
 /* Start number i of a search within a budget: the first of the greedy order, or what was found by partial enumeration.
  */
-static bool start_from(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
-                       size_t i, sp_partial *partial)
+static bool start_from(const sp_finding *finding, const sp_partial *greedy, const sp_selection *enumerated,
+                       double budget, size_t i, sp_partial *partial)
 {
     if (i == 1)
-        return sp_lineup_partial(enumerated, partial, finding->error);
+        return sp_selection_partial(enumerated, partial, finding->error);
     if (!sp_partial_copy(finding->search, greedy, partial, finding->error))
         return false;
     while (partial->count && partial->outlay > budget)
@@ -99,7 +99,7 @@ static bool start_from(const sp_finding *finding, const sp_partial *greedy, cons
 }
 
 /* The better of what the starts improve to within a budget; *best, which holds a layout, becomes it. */
-static bool start_at(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
+static bool start_at(const sp_finding *finding, const sp_partial *greedy, const sp_selection *enumerated, double budget,
                      sp_partial *best)
 {
     for (size_t i = 0; i < STARTS && sp_deadline_goes_on(finding->deadline, "front", 0); i++) {
@@ -179,7 +179,7 @@ static bool measure_all(const sp_finding *finding, const sp_partial *partials, s
 }
 
 /* The best found within each budget, measured. */
-static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated,
+static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_selection *enumerated,
                            const double *budgets, size_t count)
 {
     sp_partial *partials = calloc(count + 1, sizeof *partials);
@@ -287,13 +287,13 @@ static bool fill_front(const sp_finding *finding, const sp_partial *greedy)
     for (size_t i = 0; i < count; i++)
         budgets[i] *= 1 + SP_ROUNDING;
     sp_coverage_matrix matrix = {0};
-    sp_lineup *enumerated = calloc(count + 1, sizeof *enumerated);
+    sp_selection *enumerated = calloc(count + 1, sizeof *enumerated);
     bool done = enumerated || sp_fail_memory(finding->error);
     done = done && sp_coverage_matrix_create(finding->search, finding->pool, NULL, 0, &matrix, finding->error) &&
            sp_enumerate_partially(&matrix, budgets, count, finding->deadline, enumerated, finding->error);
     done = done && search_budgets(finding, greedy, enumerated, budgets, count);
     for (size_t i = 0; enumerated && i < count; i++)
-        sp_lineup_free(&enumerated[i]);
+        sp_selection_free(&enumerated[i]);
     sp_coverage_matrix_free(&matrix);
     free(enumerated);
     free(budgets);

@@ -5,13 +5,13 @@
 #ifndef OPTIMIZER_PARTIAL_ENUMERATION_H
 #define OPTIMIZER_PARTIAL_ENUMERATION_H
 
-#include "search/lineup.h"
+#include "search/selection.h"
 
-/* For each outlay (m³/s) the best lineup found in the coverage matrix; lineups[count] are created by it, and freed by
- * the caller. What is found does not depend on the number of threads. */
+/* For each outlay (m³/s) the best selection found in the coverage matrix; selections[count] are created by it, and
+ * freed by the caller. What is found does not depend on the number of threads. */
 bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budgets, size_t count,
-                            sp_deadline *deadline, sp_lineup *lineups, sp_error *error);
-/* The lineup as a partial layout. */
-bool sp_lineup_partial(const sp_lineup *lineup, sp_partial *partial, sp_error *error);
+                            sp_deadline *deadline, sp_selection *selections, sp_error *error);
+/* The selection as a partial layout. */
+bool sp_selection_partial(const sp_selection *selection, sp_partial *partial, sp_error *error);
 
 #endif

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-double sp_film_thickness(const sp_fluid *liquid, double per_width, double pull)
+double sp_film_thickness(const sp_fluid *liquid, double per_width, double acceleration)
 {
-    return cbrt(3 * liquid->viscosity / liquid->density * per_width / pull);
+    return cbrt(3 * liquid->viscosity / liquid->density * per_width / acceleration);
 }
 
 double sp_film_jet_radius(const sp_fluid *liquid, double flow)

@@ -4,9 +4,9 @@
 
 #include <sprayplan/nozzle.h>
 
-/* Thickness (m) of a film of so much flow per width (m²/s) on a wall along which gravity pulls by `pull` (m/s²): the
- * laminar film of Nusselt, Zeitschrift des VDI 60, 1916. */
-double sp_film_thickness(const sp_fluid *liquid, double per_width, double pull);
+/* Thickness (m) of a film of so much flow per width (m²/s) on a wall along which gravity pulls by `acceleration`
+ * (m/s²): the laminar film of Nusselt, Zeitschrift des VDI 60, 1916. */
+double sp_film_thickness(const sp_fluid *liquid, double per_width, double acceleration);
 /* Radius (m) within which the liquid (m³/s) of a solid stream that hits a wall spreads all round before it runs down:
  * .276 (ṁ³/(μ ρ σ))^¼ (Wilson, Le, Dao, Lai, Morison and Davidson, Chemical Engineering Science 68, 2012; contact angle
  * 90°). */

@@ -52,15 +52,15 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
 
 /* Of the two times at which a parabola that takes `time` meets the plane of the triangle one is its arrival, so that
  * the other follows from their sum without round-off. */
-static bool pierces(const sp_evaluator *evaluator, const sp_target *target, const sp_ray *ray, sp_vec3 pull,
+static bool pierces(const sp_evaluator *evaluator, const sp_target *target, const sp_ray *ray, sp_vec3 acceleration,
                     double time)
 {
-    double fall = sp_dot(pull, target->normal);
+    double fall = sp_dot(acceleration, target->normal);
     double t = -2 * sp_dot(ray->velocity, target->normal) / fall - time;
     if (fall == 0 || !(t > ends * time && t < (1 - ends) * time))
         return false;
     double u, v;
-    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(ray, pull, t), &u, &v);
+    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(ray, acceleration, t), &u, &v);
 }
 
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight)
@@ -84,10 +84,10 @@ static bool visit_chain(const sp_source *source, const sp_target *target, const 
         ray->t_max = fmin(ray->t_max, end - piece.start);
         if (piece.last) {
             ray->skip = target->triangle;
-            if (pierces(source->evaluator, target, ray, piece.pull, time))
+            if (pierces(source->evaluator, target, ray, piece.acceleration, time))
                 return true;
         }
-        if (ray->t_max > ray->t_min && visit(user, ray, piece.pull))
+        if (ray->t_max > ray->t_min && visit(user, ray, piece.acceleration))
             return true;
     }
     return false;
@@ -102,10 +102,10 @@ bool sp_flight_visit(const sp_source *source, const sp_target *target, const sp_
     return sp_flight_pierces(source, target, flight) || visit(user, &ray, source->gravity);
 }
 
-static bool meets(void *user, const sp_ray *piece, sp_vec3 pull)
+static bool meets(void *user, const sp_ray *piece, sp_vec3 acceleration)
 {
     const sp_tracer *tracer = user;
-    return sp_trace_occluded(tracer, piece, pull);
+    return sp_trace_occluded(tracer, piece, acceleration);
 }
 
 bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)

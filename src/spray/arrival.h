@@ -35,7 +35,7 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
  * parabola may. */
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight);
 /* A piece of a flight's way, by its own clock, and what pulls at it (m/s²): true where that is enough. */
-typedef bool sp_way_visitor(void *user, const sp_ray *piece, sp_vec3 pull);
+typedef bool sp_way_visitor(void *user, const sp_ray *piece, sp_vec3 acceleration);
 /* Visits the way of a flight with or without drag, piece by piece, until that is enough: true then, and where the
  * flight comes through the target's own triangle before. */
 bool sp_flight_visit(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_way_visitor *visit,

@@ -45,16 +45,16 @@ typedef struct {
 } jets_room;
 
 /* Where jets of one pattern, or drops, come to. */
-static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_vec3 pull, size_t jets,
+static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_vec3 acceleration, size_t jets,
                 const jets_room *room)
 {
     const sp_setup *setup = &evaluator->setup;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
     if (sp_flies_as_drops(evaluator, pattern))
-        sp_drops_land(evaluator, &drag, room->rays, pull, room->offset, jets, sp_thread_count(setup->run.threads),
-                      room->landings);
+        sp_drops_land(evaluator, &drag, room->rays, acceleration, room->offset, jets,
+                      sp_thread_count(setup->run.threads), room->landings);
     else
-        sp_jets_hit(evaluator, room->rays, pull, room->offset, jets, setup->run.threads, room->hits);
+        sp_jets_hit(evaluator, room->rays, acceleration, room->offset, jets, setup->run.threads, room->hits);
 }
 
 static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room,
@@ -70,12 +70,12 @@ static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern,
         room->rays[i] = sp_emitter_jet(&emitter, i, jets);
         room->offset[i] = sp_jet_offset(evaluator, i);
     }
-    sp_vec3 pull = emitter.source.gravity;
-    fly(evaluator, pattern, pull, jets, room);
+    sp_vec3 acceleration = emitter.source.gravity;
+    fly(evaluator, pattern, acceleration, jets, room);
     for (size_t i = 0; i < jets; i++) {
         const sp_landing *landing = drops ? &room->landings[i] : NULL;
         const sp_hit *hit = landing ? &landing->hit : &room->hits[i];
-        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], pull, hit->t);
+        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], acceleration, hit->t);
         end_jet(evaluator, hit, velocity, flow / (double)jets, balance);
     }
 }

@@ -32,13 +32,13 @@ typedef struct {
     sp_vec3 offset, back; /* m: of the goods, and of the point */
 } looking;
 
-static bool meets(void *user, const sp_ray *piece, sp_vec3 pull)
+static bool meets(void *user, const sp_ray *piece, sp_vec3 acceleration)
 {
     const looking *l = user;
     sp_ray ray = *piece;
     ray.origin = sp_add(ray.origin, l->back);
-    return sp_movers_occlude(l->evaluator, SP_STANDING, &ray, pull, sp_v(0, 0, 0)) ||
-           sp_movers_occlude(l->evaluator, SP_MOVING, &ray, pull, l->offset);
+    return sp_movers_occlude(l->evaluator, SP_STANDING, &ray, acceleration, sp_v(0, 0, 0)) ||
+           sp_movers_occlude(l->evaluator, SP_MOVING, &ray, acceleration, l->offset);
 }
 
 static glance look(const passing_point *p, double at)

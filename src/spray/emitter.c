@@ -18,7 +18,7 @@ sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle,
 {
     const sp_setup *setup = &evaluator->setup;
     return (sp_emitter){.source = {evaluator, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid), fronts,
-                                   sp_pull_at(evaluator, nozzle->type->trajectory)},
+                                   sp_acceleration_at(evaluator, nozzle->type->trajectory)},
                         .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
                         .spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle))};
 }

@@ -188,7 +188,7 @@ sp_trajectory sp_trajectory_of(const sp_evaluator *evaluator, sp_trajectory own)
     return own == SP_TRAJECTORY_AUTO ? evaluator->fidelity.trajectory : own;
 }
 
-sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own)
+sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own)
 {
     return own == SP_TRAJECTORY_AUTO ? evaluator->gravity : sp_gravity_for(&evaluator->setup, own);
 }
@@ -355,7 +355,7 @@ const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *cou
 
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch)
 {
-    return sp_pull_at(evaluator, launch ? launch->trajectory : SP_TRAJECTORY_AUTO);
+    return sp_acceleration_at(evaluator, launch ? launch->trajectory : SP_TRAJECTORY_AUTO);
 }
 
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)

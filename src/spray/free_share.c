@@ -34,12 +34,12 @@ static double share_of(const watch *w)
 }
 
 /* Looks along a piece that is given where it flies; true where the goods are in the way in every position. */
-static bool shade(watch *w, const sp_ray *ray, sp_vec3 pull)
+static bool shade(watch *w, const sp_ray *ray, sp_vec3 acceleration)
 {
     for (size_t k = w->first; k < w->end; k++) {
         sp_vec3 offset = sp_pass_offset(w->evaluator, sp_pass_share(w->evaluator, w->patch, k));
         bool *shaded = &w->shaded[k - w->first];
-        if (*shaded || !sp_movers_occlude(w->evaluator, SP_MOVING, ray, pull, offset))
+        if (*shaded || !sp_movers_occlude(w->evaluator, SP_MOVING, ray, acceleration, offset))
             continue;
         *shaded = true;
         w->free--;
@@ -59,14 +59,14 @@ double sp_ray_free_share(const sp_source *source, sp_ray_queue *queue, uint32_t 
 }
 
 /* The same of a piece that is given as the end sees it, and of what stands. */
-static bool look_along(void *user, const sp_ray *piece, sp_vec3 pull)
+static bool look_along(void *user, const sp_ray *piece, sp_vec3 acceleration)
 {
     watch *w = user;
     sp_ray ray = *piece;
     ray.origin = sp_add(ray.origin, w->offset);
-    if (sp_movers_occlude(w->evaluator, SP_STANDING, &ray, pull, sp_v(0, 0, 0)))
+    if (sp_movers_occlude(w->evaluator, SP_STANDING, &ray, acceleration, sp_v(0, 0, 0)))
         return true;
-    return shade(w, &ray, pull);
+    return shade(w, &ray, acceleration);
 }
 
 double sp_pass_free_share(const sp_gathering *own, const sp_target *target, const sp_flight *way)

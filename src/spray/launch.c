@@ -148,7 +148,7 @@ static sp_meeting meet_as_drops(const sp_evaluator *evaluator, sp_launch launch,
     sp_landing landing;
     drag.delay = drops ? 0 : drag.delay;
     sp_drag_trace_many(evaluator->tracer, &drag, ray, 1, sp_evaluator_gravity(evaluator, &launch), 1, &landing);
-    return (sp_meeting){landing.hit, sp_ray_point(&landing.piece.ray, landing.piece.pull, landing.hit.t),
+    return (sp_meeting){landing.hit, sp_ray_point(&landing.piece.ray, landing.piece.acceleration, landing.hit.t),
                         landing.velocity};
 }
 
@@ -156,7 +156,7 @@ sp_meeting sp_evaluator_meet(const sp_evaluator *evaluator, sp_launch launch, co
 {
     if (launch.fronts)
         return meet_as_drops(evaluator, launch, ray, drops);
-    sp_vec3 pull = sp_evaluator_gravity(evaluator, &launch);
-    sp_hit hit = sp_trace_nearest(evaluator->tracer, ray, pull);
-    return (sp_meeting){hit, sp_ray_point(ray, pull, hit.t), sp_ray_velocity(ray, pull, hit.t)};
+    sp_vec3 acceleration = sp_evaluator_gravity(evaluator, &launch);
+    sp_hit hit = sp_trace_nearest(evaluator->tracer, ray, acceleration);
+    return (sp_meeting){hit, sp_ray_point(ray, acceleration, hit.t), sp_ray_velocity(ray, acceleration, hit.t)};
 }

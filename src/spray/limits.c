@@ -85,9 +85,9 @@ bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, 
 {
     double diagonal = sp_distance(evaluator->low, evaluator->high);
     for (size_t i = 0; i < layout->count; i++) {
-        double pull = strongest_pull(&evaluator->setup, layout->nozzles[i].type);
-        if ((pull > 0 && !gravity_is_resolved(&evaluator->setup, diagonal, error)) ||
-            !is_flying(evaluator, &layout->nozzles[i], sqrt(SLOWEST_SQUARE * pull) * sqrt(diagonal), error))
+        double acceleration = strongest_pull(&evaluator->setup, layout->nozzles[i].type);
+        if ((acceleration > 0 && !gravity_is_resolved(&evaluator->setup, diagonal, error)) ||
+            !is_flying(evaluator, &layout->nozzles[i], sqrt(SLOWEST_SQUARE * acceleration) * sqrt(diagonal), error))
             return false;
     }
     return true;

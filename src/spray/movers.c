@@ -91,19 +91,20 @@ static sp_ray ray_for(const sp_evaluator *evaluator, sp_motion motion, const sp_
     return own;
 }
 
-bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 pull, sp_vec3 offset)
+bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 acceleration,
+                       sp_vec3 offset)
 {
     sp_ray own = ray_for(evaluator, motion, ray, offset);
-    return sp_trace_occluded(evaluator->movers->tracer[motion], &own, pull);
+    return sp_trace_occluded(evaluator->movers->tracer[motion], &own, acceleration);
 }
 
-static sp_hit nearest(const sp_evaluator *evaluator, const sp_ray *ray, sp_vec3 pull, sp_vec3 offset)
+static sp_hit nearest(const sp_evaluator *evaluator, const sp_ray *ray, sp_vec3 acceleration, sp_vec3 offset)
 {
     const sp_movers *movers = evaluator->movers;
     sp_hit hits[2];
     for (sp_motion motion = SP_STANDING; motion <= SP_MOVING; motion++) {
         sp_ray own = ray_for(evaluator, motion, ray, offset);
-        hits[motion] = sp_trace_nearest(movers->tracer[motion], &own, pull);
+        hits[motion] = sp_trace_nearest(movers->tracer[motion], &own, acceleration);
         if (hits[motion].triangle != SP_NONE)
             hits[motion].triangle = movers->whole[motion][hits[motion].triangle];
     }
@@ -124,20 +125,20 @@ sp_vec3 sp_jet_offset(const sp_evaluator *evaluator, uint64_t index)
     return sp_pass_offset(evaluator, sp_fraction(index * PASS_STEP + start));
 }
 
-void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, sp_vec3 pull, const sp_vec3 *offset, size_t count,
-                 int threads, sp_hit *hits)
+void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, sp_vec3 acceleration, const sp_vec3 *offset,
+                 size_t count, int threads, sp_hit *hits)
 {
     if (!evaluator->movers) {
-        sp_trace_nearest_many(evaluator->tracer, rays, count, pull, threads, hits);
+        sp_trace_nearest_many(evaluator->tracer, rays, count, acceleration, threads, hits);
         return;
     }
 #pragma omp parallel for num_threads(sp_thread_count(threads)) schedule(dynamic, 1024)
     for (size_t i = 0; i < count; i++)
-        hits[i] = nearest(evaluator, &rays[i], pull, offset[i]);
+        hits[i] = nearest(evaluator, &rays[i], acceleration, offset[i]);
 }
 
 /* Where a drop comes to, of what stands and of what moves. */
-static sp_landing land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *ray, sp_vec3 pull,
+static sp_landing land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *ray, sp_vec3 acceleration,
                        sp_vec3 offset, const sp_vec3 box[2][2])
 {
     const sp_movers *movers = evaluator->movers;
@@ -147,17 +148,17 @@ static sp_landing land(const sp_evaluator *evaluator, const sp_drag *drag, const
                                           .offset = motion == SP_MOVING ? offset : sp_v(0, 0, 0),
                                           .box = box[motion],
                                           .skip = ray_for(evaluator, motion, ray, offset).skip};
-    sp_landing landing = sp_drag_trace(obstacles, 2, drag, ray, pull);
+    sp_landing landing = sp_drag_trace(obstacles, 2, drag, ray, acceleration);
     if (landing.hit.triangle != SP_NONE)
         landing.hit.triangle = movers->whole[landing.obstacle][landing.hit.triangle];
     return landing;
 }
 
-void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, sp_vec3 pull,
+void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, sp_vec3 acceleration,
                    const sp_vec3 *offset, size_t count, int threads, sp_landing *landings)
 {
     if (!evaluator->movers) {
-        sp_drag_trace_many(evaluator->tracer, drag, rays, count, pull, threads, landings);
+        sp_drag_trace_many(evaluator->tracer, drag, rays, count, acceleration, threads, landings);
         return;
     }
     sp_vec3 box[2][2];
@@ -165,5 +166,5 @@ void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_
         sp_mesh_box(evaluator->movers->mesh[i], &box[i][0], &box[i][1]);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 256)
     for (size_t i = 0; i < count; i++)
-        landings[i] = land(evaluator, drag, &rays[i], pull, offset[i], (const sp_vec3(*)[2])box);
+        landings[i] = land(evaluator, drag, &rays[i], acceleration, offset[i], (const sp_vec3(*)[2])box);
 }

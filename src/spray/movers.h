@@ -50,17 +50,17 @@ double sp_pass_step(const sp_evaluator *evaluator);
 
 /* Whether one of the two is in the way of a ray, which is given where it flies, with a triangle of the setup's mesh
  * to skip and what pulls at it (m/s²), while the goods are at `offset`. */
-bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 pull,
+bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 acceleration,
                        sp_vec3 offset);
 /* How far the goods are (m) while jet `index` of a nozzle flies: jets are spread evenly over the pass, whichever way
  * they fly. 0 where nothing moves. */
 sp_vec3 sp_jet_offset(const sp_evaluator *evaluator, uint64_t index);
 /* What each ray hits first, pulled at so (m/s²), goods being offset[i] from where the mesh has them; the same as the
  * tracer's where nothing moves. `hits` [count], triangles of the setup's mesh, is the caller's. */
-void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, sp_vec3 pull, const sp_vec3 *offset, size_t count,
-                 int threads, sp_hit *hits);
+void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, sp_vec3 acceleration, const sp_vec3 *offset,
+                 size_t count, int threads, sp_hit *hits);
 /* The same of drops that air holds back. */
-void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, sp_vec3 pull,
+void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, sp_vec3 acceleration,
                    const sp_vec3 *offset, size_t count, int threads, sp_landing *landings);
 
 #endif

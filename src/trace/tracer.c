@@ -124,11 +124,12 @@ static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_ray_searc
         sp_line_search_tree(&line, corners, &tracer->tree, search);
 }
 
-static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_ray_search *search)
+static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_acceleration *acceleration,
+                            sp_ray_search *search)
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
     sp_parabola parabola;
-    if (!sp_parabola_start(&parabola, ray, pull, tracer->tree.low, tracer->tree.high) ||
+    if (!sp_parabola_start(&parabola, ray, acceleration, tracer->tree.low, tracer->tree.high) ||
         !sp_parabola_limit(&parabola, search))
         return;
     if (tracer->accelerator == SP_ACCELERATOR_NONE)
@@ -145,24 +146,25 @@ static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_ray_search
         search->best.triangle = 0; /* or another */
 }
 
-static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_ray_search *search)
+static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_acceleration *acceleration,
+                           sp_ray_search *search)
 {
     const uint32_t only = 0;
     bool occluded = false;
-    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, ray, &only, 1, pull, search->any ? NULL : &search->best,
-                           &occluded);
+    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, ray, &only, 1, acceleration,
+                           search->any ? NULL : &search->best, &occluded);
     if (occluded)
         search->best.triangle = 0; /* or another */
 }
 
-static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, bool any)
+static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_acceleration *acceleration, bool any)
 {
     sp_ray_search search = sp_ray_search_start(ray, any);
     bool is_bvh = tracer->accelerator == SP_ACCELERATOR_BVH;
-    if (pull->strength != 0 && is_bvh)
-        trace_parabola(tracer, ray, pull, &search);
-    else if (pull->strength != 0)
-        search_parabola(tracer, ray, pull, &search);
+    if (acceleration->strength != 0 && is_bvh)
+        trace_parabola(tracer, ray, acceleration, &search);
+    else if (acceleration->strength != 0)
+        search_parabola(tracer, ray, acceleration, &search);
     else if (is_bvh)
         trace_line(tracer, ray, &search);
     else
@@ -172,14 +174,14 @@ static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *p
 
 sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity)
 {
-    sp_pull pull = sp_pull_of(gravity);
-    return trace(tracer, ray, &pull, false);
+    sp_acceleration acceleration = sp_acceleration_of(gravity);
+    return trace(tracer, ray, &acceleration, false);
 }
 
 bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity)
 {
-    sp_pull pull = sp_pull_of(gravity);
-    return trace(tracer, ray, &pull, true).triangle != SP_NONE;
+    sp_acceleration acceleration = sp_acceleration_of(gravity);
+    return trace(tracer, ray, &acceleration, true).triangle != SP_NONE;
 }
 
 /* Rays that one thread takes at a time: so many that sorting them brings neighbours together. */
@@ -202,11 +204,11 @@ static size_t count_common_origin(const sp_ray *rays, size_t count)
 }
 
 /* hits or occluded, whichever is not NULL. */
-static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
-                             sp_hit *hits, bool *occluded)
+static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t count,
+                             const sp_acceleration *acceleration, sp_hit *hits, bool *occluded)
 {
     for (size_t i = 0; i < count; i++) {
-        sp_hit hit = trace(tracer, &rays[i], pull, !hits);
+        sp_hit hit = trace(tracer, &rays[i], acceleration, !hits);
         if (hits)
             hits[i] = hit;
         else
@@ -237,13 +239,13 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
 }
 
 /* Parabolas through the bvh: those of one origin in packets, all others as single rays. */
-static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
-                            sp_hit *hits, bool *occluded)
+static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t count,
+                            const sp_acceleration *acceleration, sp_hit *hits, bool *occluded)
 {
     size_t single = 0;
     uint32_t *left = malloc((count + 1) * sizeof *left);
     if (!left) {
-        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
+        trace_one_by_one(tracer, rays, count, acceleration, hits, occluded);
         return;
     }
     for (size_t i = 0, n; i < count; i += n) {
@@ -251,37 +253,37 @@ static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t 
         size_t more = 1;
         left[single] = 0;
         if (n >= COMMON_ORIGIN_LEAST)
-            more = sp_parabola_packets_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull,
+            more = sp_parabola_packets_trace(&tracer->bvh, tracer->instructions, rays + i, n, acceleration,
                                              hits ? hits + i : NULL, hits ? NULL : occluded + i, left + single);
         else
             n = 1;
         for (size_t end = single + more; single < end; single++)
             left[single] += (uint32_t)i;
     }
-    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, rays, left, single, pull, hits, occluded);
+    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, rays, left, single, acceleration, hits, occluded);
     free(left);
 }
 
-static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
+static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_acceleration *acceleration,
                         sp_common_origin_room *room, sp_hit *hits, bool *occluded)
 {
     if (tracer->accelerator != SP_ACCELERATOR_BVH)
-        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
-    else if (pull->strength == 0)
+        trace_one_by_one(tracer, rays, count, acceleration, hits, occluded);
+    else if (acceleration->strength == 0)
         trace_lines(tracer, rays, count, room, hits, occluded);
     else
-        trace_parabolas(tracer, rays, count, pull, hits, occluded);
+        trace_parabolas(tracer, rays, count, acceleration, hits, occluded);
 }
 
 static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                        sp_hit *hits, bool *occluded)
 {
-    sp_pull pull = sp_pull_of(gravity);
+    sp_acceleration acceleration = sp_acceleration_of(gravity);
     threads = thread_count(threads);
     size_t size = chunk_size(count, threads), chunks = (count + size - 1) / size;
     if (chunks == 1 && count < CHUNK_LEAST) { /* a team, even of one, costs as much as some rays */
         sp_common_origin_room room = {0};
-        trace_chunk(tracer, rays, count, &pull, &room, hits, occluded);
+        trace_chunk(tracer, rays, count, &acceleration, &room, hits, occluded);
         sp_common_origin_room_clear(&room);
         return;
     }
@@ -291,7 +293,7 @@ static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count
 #pragma omp for schedule(dynamic, 1)
         for (size_t c = 0; c < chunks; c++) {
             size_t first = c * size, n = count - first < size ? count - first : size;
-            trace_chunk(tracer, rays + first, n, &pull, &room, hits ? hits + first : NULL,
+            trace_chunk(tracer, rays + first, n, &acceleration, &room, hits ? hits + first : NULL,
                         hits ? NULL : occluded + first);
         }
         sp_common_origin_room_clear(&room);

@@ -83,7 +83,7 @@ static void compare(double diameter, double speed, const sp_fronts *fronts, sp_v
             at = fly(diameter, at, down, piece.start + t - now, 40);
             now = piece.start + t;
             double way = fmax(sp_distance(at.place, from), flight->lever * now / flight->time);
-            *place = fmax(*place, sp_distance(sp_ray_point(&piece.ray, piece.pull, t), at.place) / way);
+            *place = fmax(*place, sp_distance(sp_ray_point(&piece.ray, piece.acceleration, t), at.place) / way);
         }
     }
     assert_true(fabs(end - flight->time) <= 1e-12 * flight->time);

@@ -94,12 +94,12 @@ static void thrown_up_it_comes_down(void **state)
         double expected = (up + sqrt(up * up + 2 * 9.81)) / 9.81;
         assert_true(fabs(hit.t - expected) < 1e-13 * expected);
     }
-    /* A pull so weak that the coefficient is next to nothing: as a line. */
+    /* An acceleration so weak that the coefficient is next to nothing: as a line. */
     sp_ray ray = make_ray(sp_v(0, 0, 0), sp_v(0.5, 0.1, -2));
     for (int k = 0; k < 40; k++) {
-        double pull = pow(10, -8 * k);
-        sp_hit hit = trace_once(floor, ray, sp_v(0, 0, -pull));
-        assert_true(fabs(hit.t - 2 / (2 + sqrt(4 + 2 * pull))) < 1e-15);
+        double acceleration = pow(10, -8 * k);
+        sp_hit hit = trace_once(floor, ray, sp_v(0, 0, -acceleration));
+        assert_true(fabs(hit.t - 2 / (2 + sqrt(4 + 2 * acceleration))) < 1e-15);
     }
     sp_mesh_destroy(floor);
 }

@@ -81,8 +81,8 @@ static void make_world(world *w, random_source *source, double scale, bool off)
     note_places(w, 0);
 }
 
-/* A flight through a point of a triangle, a corner or the inside, from near or far, at any speed and pull, often level
- * or upright where it meets it, or with a coordinate that does not change. */
+/* A flight through a point of a triangle, a corner or the inside, from near or far, at any speed and acceleration,
+ * often level or upright where it meets it, or with a coordinate that does not change. */
 static sp_ray draw_flight(random_source *source, const world *w, sp_vec3 *gravity)
 {
     static const sp_vec3 along[] = {{0, 0, -1}, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}, {0.6, -0.48, 0.64}, {1e-9, 0, -1}};
@@ -186,7 +186,7 @@ static bool same_arcs(const sp_bvh_arc *a, const sp_bvh_arc *b)
 }
 
 /* That flights prepared many at a time begin as those that are prepared singly. */
-static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, tally *seen)
+static void check_start(const world *w, const sp_ray *ray, const sp_acceleration *acceleration, tally *seen)
 {
     static void (*const prepares[])(const sp_parabola_queue *, sp_bvh_starts *) = {
         sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
@@ -195,20 +195,20 @@ static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, 
     sp_parabola parabola;
     double from = search.t_min, last = search.limit;
     flight.asked = ray;
-    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, pull, &flight, &from, &last);
-    if ((pull->vector[0] != 0) + (pull->vector[1] != 0) + (pull->vector[2] != 0) != 1)
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, acceleration, &flight, &from, &last);
+    if ((acceleration->vector[0] != 0) + (acceleration->vector[1] != 0) + (acceleration->vector[2] != 0) != 1)
         return;
-    if (fitness != SP_BVH_READY || !sp_parabola_start(&parabola, ray, pull, w->bvh.low, w->bvh.high))
+    if (fitness != SP_BVH_READY || !sp_parabola_start(&parabola, ray, acceleration, w->bvh.low, w->bvh.high))
         return;
     double to = sp_parabola_turn(&parabola, from, last);
-    fitness = sp_bvh_arc_prepare(pull, &flight, from, to);
+    fitness = sp_bvh_arc_prepare(acceleration, &flight, from, to);
     for (int set = 0; set < SP_INSTRUCTIONS_COUNT; set++) {
         if (!sp_instructions_available((sp_instructions)set))
             continue;
         static sp_parabola_queue queue;
         sp_bvh_arc arc;
-        queue = (sp_parabola_queue){.bvh = &w->bvh, .pull = pull, .rays = ray, .aligned = true};
-        queue.axis[0] = pull->vector[0] != 0 ? 0 : pull->vector[1] != 0 ? 1 : 2;
+        queue = (sp_parabola_queue){.bvh = &w->bvh, .acceleration = acceleration, .rays = ray, .aligned = true};
+        queue.axis[0] = acceleration->vector[0] != 0 ? 0 : acceleration->vector[1] != 0 ? 1 : 2;
         queue.axis[1] = queue.axis[0] == 2 ? 0 : queue.axis[0] + 1;
         queue.axis[2] = queue.axis[0] == 0 ? 2 : queue.axis[0] - 1;
         queue.starts.count = 1;
@@ -225,13 +225,13 @@ static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, 
 
 static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tally *seen)
 {
-    sp_pull pull = sp_pull_of(gravity);
+    sp_acceleration acceleration = sp_acceleration_of(gravity);
     sp_ray_search search = sp_ray_search_start(ray, false);
     static sp_parabola_flight flight;
     flight.asked = ray;
     double from = search.t_min, last = search.limit, times[COUNT];
     sp_parabola parabola;
-    assert_true(sp_parabola_start(&parabola, ray, &pull, w->bvh.low, w->bvh.high));
+    assert_true(sp_parabola_start(&parabola, ray, &acceleration, w->bvh.low, w->bvh.high));
     for (uint32_t t = 0; t < w->mesh->triangle_count; t++) {
         sp_ray_search single = search;
         sp_corners corners;
@@ -239,12 +239,12 @@ static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tal
         sp_parabola_test(&parabola, (const double(*)[3])corners, t, &single);
         times[t] = single.best.t;
     }
-    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, &pull, &flight, &from, &last);
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(&w->bvh, &acceleration, &flight, &from, &last);
     for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++)
         assert_true(times[t] == INFINITY || (fitness == SP_BVH_READY && times[t] >= from && times[t] <= last));
     while (fitness != SP_BVH_FAR && from <= last) {
         double to = sp_parabola_turn(&parabola, from, last);
-        fitness = sp_bvh_arc_prepare(&pull, &flight, from, to);
+        fitness = sp_bvh_arc_prepare(&acceleration, &flight, from, to);
         seen->pieces++;
         for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++) {
             if (!(times[t] >= from && times[t] <= to))
@@ -274,8 +274,8 @@ static void nothing_hit_is_left_out(void **state)
             sp_vec3 gravity;
             sp_ray ray = draw_flight(&source, &w, &gravity);
             check_flight(&w, &ray, gravity, &seen);
-            sp_pull pull = sp_pull_of(gravity);
-            check_start(&w, &ray, &pull, &seen);
+            sp_acceleration acceleration = sp_acceleration_of(gravity);
+            check_start(&w, &ray, &acceleration, &seen);
         }
         sp_bvh_clear(&w.bvh);
         sp_mesh_destroy(w.mesh);

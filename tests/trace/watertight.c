@@ -29,17 +29,18 @@ static sp_vec3 draw_target(random_source *source, const sp_mesh *mesh)
 }
 
 /* `convex`: nothing can be passed on the way, so that the target is hit or what is before it. */
-static void shoot(const sp_mesh *mesh, sp_vec3 centre, double radius, double pull, bool convex, random_source *source)
+static void shoot(const sp_mesh *mesh, sp_vec3 centre, double radius, double acceleration, bool convex,
+                  random_source *source)
 {
     sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     for (size_t i = 0; i < TARGETS; i++) {
-        sp_vec3 gravity = sp_v(0, i % 3 == 2 ? pull : 0, i % 3 == 2 ? 0 : -pull);
+        sp_vec3 gravity = sp_v(0, i % 3 == 2 ? acceleration : 0, i % 3 == 2 ? 0 : -acceleration);
         sp_vec3 origin = i % 2 ? sp_add(centre, draw_point(source, 0.5 * radius)) : centre;
         sp_ray ray = aim(origin, draw_target(source, mesh), gravity);
         sp_hit hit = sp_trace_nearest(tracer, &ray, gravity);
         if (!(hit.t <= (convex ? 1 + 1e-9 : 1e9)))
-            fail_msg("ray %zu from (%.17g %.17g %.17g) at (%.17g %.17g %.17g), pull %g: hit at %g", i, origin.x,
-                     origin.y, origin.z, ray.velocity.x, ray.velocity.y, ray.velocity.z, pull, hit.t);
+            fail_msg("ray %zu from (%.17g %.17g %.17g) at (%.17g %.17g %.17g), acceleration %g: hit at %g", i, origin.x,
+                     origin.y, origin.z, ray.velocity.x, ray.velocity.y, ray.velocity.z, acceleration, hit.t);
         assert_true(sp_trace_occluded(tracer, &ray, gravity));
     }
     sp_tracer_destroy(tracer);
@@ -208,7 +209,7 @@ static size_t count_misses(const closed *shape, size_t shots, bool curved, rando
             if (!slips(shape, &rays[i], gravity, hits[i]) && occluded[i])
                 continue;
             if (misses++ < 10)
-                printf("missed: (%a %a %a) (%a %a %a) pull (%a %a %a)\n", origin.x, origin.y, origin.z,
+                printf("missed: (%a %a %a) (%a %a %a) acceleration (%a %a %a)\n", origin.x, origin.y, origin.z,
                        rays[i].velocity.x, rays[i].velocity.y, rays[i].velocity.z, gravity.x, gravity.y, gravity.z);
         }
     }

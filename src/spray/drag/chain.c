@@ -48,7 +48,7 @@ bool sp_chain_next(sp_chain *chain, sp_arc_piece *piece)
     end = piece->last ? chain->time : end;
     assert(start < end);
     sp_vec3 place[3] = {chain->at, place_at(chain, 0.5 * (start + end)), place_at(chain, end)};
-    piece->ray = sp_parabola_through(place, end - start, &piece->pull);
+    piece->ray = sp_parabola_through(place, end - start, &piece->acceleration);
     if (!piece->last)
         piece->ray.t_max *= 1 + OVERLAP;
     piece->start = start;
@@ -77,7 +77,7 @@ static sp_arc_piece piece_of(const sp_leg *leg, int i, int count)
     sp_arc_piece piece = {.start = i * time};
     sp_vec3 place[3] = {sp_leg_at(leg, i * time).point, sp_leg_at(leg, (i + 0.5) * time).point,
                         i + 1 < count ? sp_leg_at(leg, (i + 1) * time).point : leg->to.point};
-    piece.ray = sp_parabola_through(place, time, &piece.pull);
+    piece.ray = sp_parabola_through(place, time, &piece.acceleration);
     piece.ray.t_max *= 1 + OVERLAP;
     return piece;
 }
@@ -88,10 +88,11 @@ static bool has_left(const sp_drag_state *now, sp_vec3 gravity, const sp_vec3 bo
 {
     const double at[3] = {now->point.x, now->point.y, now->point.z};
     const double speed[3] = {now->velocity.x, now->velocity.y, now->velocity.z};
-    const double pull[3] = {gravity.x, gravity.y, gravity.z};
+    const double acceleration[3] = {gravity.x, gravity.y, gravity.z};
     const double low[3] = {box[0].x, box[0].y, box[0].z}, high[3] = {box[1].x, box[1].y, box[1].z};
     for (int i = 0; i < 3; i++)
-        if ((at[i] < low[i] && speed[i] <= 0 && pull[i] <= 0) || (at[i] > high[i] && speed[i] >= 0 && pull[i] >= 0))
+        if ((at[i] < low[i] && speed[i] <= 0 && acceleration[i] <= 0) ||
+            (at[i] > high[i] && speed[i] >= 0 && acceleration[i] >= 0))
             return true;
     return false;
 }
@@ -115,7 +116,7 @@ static sp_hit meet(const sp_obstacle *obstacles, int count, const sp_arc_piece *
         sp_ray ray = piece->ray;
         ray.origin = sp_sub(ray.origin, obstacles[i].offset);
         ray.skip = obstacles[i].skip;
-        sp_hit hit = sp_trace_nearest(obstacles[i].tracer, &ray, piece->pull);
+        sp_hit hit = sp_trace_nearest(obstacles[i].tracer, &ray, piece->acceleration);
         if (hit.triangle == SP_NONE || hit.t >= first.t)
             continue;
         first = hit;

@@ -5,9 +5,9 @@
 #include "fronts.h"
 
 typedef struct {
-    sp_ray ray;   /* from its start to its end, by its own clock */
-    sp_vec3 pull; /* m/s², its acceleration */
-    double start; /* s, when it begins */
+    sp_ray ray;           /* from its start to its end, by its own clock */
+    sp_vec3 acceleration; /* m/s² */
+    double start;         /* s, when it begins */
     bool last;
 } sp_arc_piece;
 

@@ -26,21 +26,21 @@ sp_drag_state sp_drag_state_of(const sp_drag *drag, sp_vec3 point, sp_vec3 veloc
 
 double sp_drag_step(const sp_drag *drag, const sp_drag_state *from, sp_vec3 gravity, double step, sp_drag_state *to)
 {
-    sp_vec3 velocity[STAGES] = {from->velocity}, pull[STAGES] = {from->acceleration};
-    sp_vec3 way = sp_v(0, 0, 0), way_error = way, speed_error = sp_scale(pull[0], differences[0]);
+    sp_vec3 velocity[STAGES] = {from->velocity}, acceleration[STAGES] = {from->acceleration};
+    sp_vec3 way = sp_v(0, 0, 0), way_error = way, speed_error = sp_scale(acceleration[0], differences[0]);
     for (int i = 1; i < STAGES; i++) {
         sp_vec3 change = way;
         for (int k = 0; k < i; k++)
-            change = sp_along(change, weights[i][k], pull[k]);
+            change = sp_along(change, weights[i][k], acceleration[k]);
         velocity[i] = sp_along(from->velocity, step, change);
-        pull[i] = sp_drag_acceleration(drag, velocity[i], gravity);
-        speed_error = sp_along(speed_error, differences[i], pull[i]);
+        acceleration[i] = sp_drag_acceleration(drag, velocity[i], gravity);
+        speed_error = sp_along(speed_error, differences[i], acceleration[i]);
     }
     for (int i = 0; i < STAGES; i++) {
         way = sp_along(way, weights[STAGES - 1][i], velocity[i]);
         way_error = sp_along(way_error, differences[i], velocity[i]);
     }
-    *to = (sp_drag_state){sp_along(from->point, step, way), velocity[STAGES - 1], pull[STAGES - 1]};
+    *to = (sp_drag_state){sp_along(from->point, step, way), velocity[STAGES - 1], acceleration[STAGES - 1]};
     double error = fmax(step * sp_length(speed_error), sp_length(way_error));
     return isfinite(error + sp_length(to->point)) ? error : INFINITY;
 }
@@ -65,10 +65,10 @@ sp_drag_state sp_leg_at(const sp_leg *leg, double t)
     /* what the end lacks of place, velocity and acceleration, each times so much time as makes a place of it */
     sp_vec3 place = sp_sub(b->point, sp_along(sp_along(a->point, h, a->velocity), 0.5 * h * h, a->acceleration));
     sp_vec3 speed = sp_scale(sp_sub(b->velocity, sp_along(a->velocity, h, a->acceleration)), h);
-    sp_vec3 pull = sp_scale(sp_sub(b->acceleration, a->acceleration), h * h);
-    sp_vec3 third = sp_along(sp_along(sp_scale(place, 10), -4, speed), 0.5, pull);
-    sp_vec3 fourth = sp_along(sp_along(sp_scale(place, -15), 7, speed), -1, pull);
-    sp_vec3 fifth = sp_along(sp_along(sp_scale(place, 6), -3, speed), 0.5, pull);
+    sp_vec3 acceleration = sp_scale(sp_sub(b->acceleration, a->acceleration), h * h);
+    sp_vec3 third = sp_along(sp_along(sp_scale(place, 10), -4, speed), 0.5, acceleration);
+    sp_vec3 fourth = sp_along(sp_along(sp_scale(place, -15), 7, speed), -1, acceleration);
+    sp_vec3 fifth = sp_along(sp_along(sp_scale(place, 6), -3, speed), 0.5, acceleration);
     sp_vec3 rest = sp_scale(sp_along(sp_along(third, x, fourth), x * x, fifth), x * x * x);
     sp_vec3 slope = sp_scale(sp_along(sp_along(sp_scale(third, 3), 4 * x, fourth), 5 * x * x, fifth), x * x / h);
     return (sp_drag_state){.point =
@@ -117,10 +117,10 @@ sp_leg sp_march_on(sp_march *march, double tolerance)
     return leg;
 }
 
-sp_ray sp_parabola_through(const sp_vec3 place[3], double time, sp_vec3 *pull)
+sp_ray sp_parabola_through(const sp_vec3 place[3], double time, sp_vec3 *acceleration)
 {
     sp_vec3 half = sp_sub(place[1], place[0]), whole = sp_sub(place[2], place[0]);
-    *pull = sp_scale(sp_along(whole, -2, half), 4 / time / time);
+    *acceleration = sp_scale(sp_along(whole, -2, half), 4 / time / time);
     return (sp_ray){.origin = place[0],
                     .velocity = sp_scale(sp_along(sp_scale(half, 4), -1, whole), 1 / time),
                     .t_max = time,

@@ -48,7 +48,7 @@ sp_leg sp_march_on(sp_march *march, double tolerance);
 
 /* The parabola through three places, at the start, the middle and the end of `time` seconds, as a ray without its ends,
  * and its acceleration (m/s²). */
-sp_ray sp_parabola_through(const sp_vec3 place[3], double time, sp_vec3 *pull);
+sp_ray sp_parabola_through(const sp_vec3 place[3], double time, sp_vec3 *acceleration);
 /* How far a way is from the parabola through its start, middle and end, at a quarter of its time, in m. */
 double sp_parabola_misses(const sp_vec3 place[3], sp_vec3 quarter);
 

@@ -39,7 +39,7 @@ sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
 /* How the liquid of a type, or of a launch, flies whose own trajectory this is; never auto. */
 sp_trajectory sp_trajectory_of(const sp_evaluator *evaluator, sp_trajectory own);
 /* What pulls at it, m/s². */
-sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own);
+sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own);
 /* Whether air and liquid tell how drops are held back. */
 bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */

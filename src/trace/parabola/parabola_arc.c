@@ -3,7 +3,7 @@
 
 static inline double course_at(const sp_bvh_course *c, double t)
 {
-    return c->place + t * (c->speed + 0.5 * t * c->pull);
+    return c->place + t * (c->speed + 0.5 * t * c->acceleration);
 }
 
 /* Cuts the span to when a coordinate without gravity is within ±SP_BVH_LIMIT. */
@@ -19,18 +19,19 @@ static inline void cut_straight(const sp_bvh_course *c, double *from, double *to
 /* When a coordinate with gravity is `way` away from its place, moving with that sign; infinite for never. */
 static double time_of(const sp_bvh_course *c, double way, double sign)
 {
-    double square = c->speed * c->speed + 2 * c->pull * way;
+    double square = c->speed * c->speed + 2 * c->acceleration * way;
     if (!(square > 0))
         return INFINITY;
     double speed = sign * sqrt(square);
-    return speed * c->speed > 0 ? 2 * way / (speed + c->speed) : (speed - c->speed) / c->pull;
+    return speed * c->speed > 0 ? 2 * way / (speed + c->speed) : (speed - c->speed) / c->acceleration;
 }
 
 /* Likewise for a coordinate with gravity, which does not turn in the span. */
 static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
 {
     /* in the middle: at its ends it may be turning */
-    double middle = *to < INFINITY ? c->speed + 0.5 * c->pull * (*from + *to) : c->pull, sign = middle < 0 ? -1 : 1;
+    double middle = *to < INFINITY ? c->speed + 0.5 * c->acceleration * (*from + *to) : c->acceleration,
+           sign = middle < 0 ? -1 : 1;
     double first = sign * course_at(c, *from);
     if (!(first <= SP_BVH_LIMIT))
         return false;
@@ -41,8 +42,8 @@ static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
     return *from <= *to;
 }
 
-sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_parabola_flight *flight,
-                                          double *from, double *to)
+sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_acceleration *acceleration,
+                                          sp_parabola_flight *flight, double *from, double *to)
 {
     const double *centre = bvh->centre, scale = bvh->scale;
     double origin[3], velocity[3];
@@ -50,13 +51,13 @@ sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_pull *pull
     sp_to_array(flight->asked->velocity, velocity);
     flight->summed = 1;
     flight->speed = 0;
-    flight->strength = pull->strength * scale;
+    flight->strength = acceleration->strength * scale;
     for (int k = 0; k < 3; k++) {
         sp_bvh_course *c = &flight->course[k];
-        *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, pull->vector[k] * scale, 0};
+        *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, acceleration->vector[k] * scale, 0};
         flight->summed = sp_greater(flight->summed, fabs(c->place));
         flight->speed = sp_greater(flight->speed, fabs(c->speed));
-        if (c->pull == 0) {
+        if (c->acceleration == 0) {
             c->inverse = 1 / c->speed;
             cut_straight(c, from, to);
         }
@@ -98,14 +99,14 @@ static inline void set_axis(sp_bvh_arc *arc, int i, double slope, double inverse
     }
 }
 
-bool sp_bvh_order_axes(const sp_pull *pull, int axis[3])
+bool sp_bvh_order_axes(const sp_acceleration *acceleration, int axis[3])
 {
-    int steep = fabs(pull->down[0]) > fabs(pull->down[1]) ? 0 : 1;
-    steep = fabs(pull->down[2]) > fabs(pull->down[steep]) ? 2 : steep;
+    int steep = fabs(acceleration->down[0]) > fabs(acceleration->down[1]) ? 0 : 1;
+    steep = fabs(acceleration->down[2]) > fabs(acceleration->down[steep]) ? 2 : steep;
     axis[0] = steep;
     axis[1] = steep == 2 ? 0 : steep + 1;
     axis[2] = steep == 0 ? 2 : steep - 1;
-    return pull->vector[axis[1]] == 0 && pull->vector[axis[2]] == 0;
+    return acceleration->vector[axis[1]] == 0 && acceleration->vector[axis[2]] == 0;
 }
 
 static inline float way_of(const sp_bvh_arc *arc, double t, double margin)
@@ -119,17 +120,19 @@ static inline uint32_t diagonal_of(uint32_t falls)
     return falls & 1 ? (~falls & 6) | 1 : falls & 6;
 }
 
-sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_parabola_flight *flight, double from, double to)
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_acceleration *acceleration, sp_parabola_flight *flight, double from,
+                                  double to)
 {
     sp_bvh_arc *arc = &flight->arc;
     double t_min = from, t_max = to, fastest = 0, span;
     for (int k = 0; k < 3; k++)
-        if (flight->course[k].pull != 0 && !cut_curved(&flight->course[k], &from, &to))
+        if (flight->course[k].acceleration != 0 && !cut_curved(&flight->course[k], &from, &to))
             return SP_BVH_NOWHERE;
     double latest = sp_greater(fabs(from), fabs(to));
     for (int k = 0; k < 3; k++) {
         const sp_bvh_course *c = &flight->course[k];
-        fastest = sp_greater(fastest, sp_greater(fabs(c->speed + from * c->pull), fabs(c->speed + to * c->pull)));
+        fastest = sp_greater(
+            fastest, sp_greater(fabs(c->speed + from * c->acceleration), fabs(c->speed + to * c->acceleration)));
     }
     if (!(2 * (flight->summed + latest * (flight->speed + 0.5 * latest * flight->strength)) <= SP_BVH_SUMMED &&
           (to - from) * fastest <= 4.2 && fastest > 1e-100 && fastest < 1e100))
@@ -137,18 +140,18 @@ sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_parabola_flight *fligh
     arc->start = from;
     arc->rate = sp_bvh_power_above(fastest, &span);
     double last = (to - from) * arc->rate;
-    arc->aligned = sp_bvh_order_axes(pull, arc->axis);
+    arc->aligned = sp_bvh_order_axes(acceleration, arc->axis);
     arc->sag = 0;
     uint32_t falls = 0;
     for (int i = 0; i < 3; i++) {
         int k = arc->axis[i];
         const sp_bvh_course *c = &flight->course[k];
         arc->origin[k] = (float)course_at(c, from);
-        arc->direction[k] = (float)((c->speed + from * c->pull) * span);
-        arc->bend[k] = (float)(0.5 * c->pull * span * span);
+        arc->direction[k] = (float)((c->speed + from * c->acceleration) * span);
+        arc->bend[k] = (float)(0.5 * c->acceleration * span * span);
         arc->sag = fabsf(arc->bend[k]) > arc->sag ? fabsf(arc->bend[k]) : arc->sag;
-        double slope = (c->speed + 0.5 * c->pull * (from + to)) * span;
-        set_axis(arc, i, slope, c->pull == 0 ? c->inverse * arc->rate : 1 / slope, last);
+        double slope = (c->speed + 0.5 * c->acceleration * (from + to)) * span;
+        set_axis(arc, i, slope, c->acceleration == 0 ? c->inverse * arc->rate : 1 / slope, last);
         falls |= (uint32_t) !(slope > 0) << k;
     }
     arc->diagonal = diagonal_of(falls);

@@ -53,7 +53,7 @@ static double next_turn(const sp_parabola_flight *flight, double from, double to
 {
     for (int k = 0; k < 3; k++) {
         const sp_bvh_course *c = &flight->course[k];
-        double turn = c->pull != 0 ? -c->speed / c->pull : from;
+        double turn = c->acceleration != 0 ? -c->speed / c->acceleration : from;
         if (turn > from && turn < to)
             to = turn;
     }
@@ -65,7 +65,7 @@ static void search_far(const sp_parabola_queue *queue, sp_parabola_flight *fligh
     const sp_bvh *bvh = queue->bvh;
     sp_parabola *p = &flight->parabola;
     sp_ray_search *search = &flight->search;
-    if (!sp_parabola_start(p, flight->asked, queue->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
+    if (!sp_parabola_start(p, flight->asked, queue->acceleration, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
         return;
     double from = search->t_min, last = search->limit;
     while (from <= sp_lesser(last, search->limit) && !sp_ray_search_done(search)) {
@@ -82,7 +82,7 @@ static void ask(const sp_parabola_queue *queue, sp_parabola_flight *flight, uint
 {
     sp_corners corners;
     if (!flight->parabola_ready) /* its numbers are finite, or it would not be here */
-        sp_parabola_start(&flight->parabola, flight->asked, queue->pull, queue->bvh->low, queue->bvh->high);
+        sp_parabola_start(&flight->parabola, flight->asked, queue->acceleration, queue->bvh->low, queue->bvh->high);
     flight->parabola_ready = true;
     sp_bvh_corners(queue->bvh, triangle, corners);
     sp_parabola_test(&flight->parabola, (const double(*)[3])corners, triangle, &flight->search);
@@ -120,7 +120,7 @@ static bool begin_piece(const sp_parabola_queue *queue, sp_parabola_flight *flig
 {
     if (!flight->course_ready) {
         double first = from, last = flight->last;
-        sp_parabola_flight_prepare(queue->bvh, queue->pull, flight, &first, &last);
+        sp_parabola_flight_prepare(queue->bvh, queue->acceleration, flight, &first, &last);
         flight->course_ready = true;
     }
     flight->later = true;
@@ -128,7 +128,7 @@ static bool begin_piece(const sp_parabola_queue *queue, sp_parabola_flight *flig
         flight->to = next_turn(flight, from, flight->last);
         flight->later = flight->to < flight->last;
         sp_bvh_fitness fitness =
-            sp_bvh_arc_prepare(queue->pull, flight, from, sp_lesser(flight->to, flight->search.limit));
+            sp_bvh_arc_prepare(queue->acceleration, flight, from, sp_lesser(flight->to, flight->search.limit));
         if (fitness == SP_BVH_FAR) {
             flight->later = false;
             search_far(queue, flight);
@@ -162,7 +162,7 @@ static bool begin(const sp_parabola_queue *queue, uint32_t number, sp_parabola_f
     double from = flight->search.t_min;
     flight->last = flight->search.limit;
     flight->course_ready = true;
-    sp_bvh_fitness fitness = sp_parabola_flight_prepare(queue->bvh, queue->pull, flight, &from, &flight->last);
+    sp_bvh_fitness fitness = sp_parabola_flight_prepare(queue->bvh, queue->acceleration, flight, &from, &flight->last);
     if (fitness == SP_BVH_FAR)
         search_far(queue, flight);
     return fitness == SP_BVH_READY && begin_piece(queue, flight, from);
@@ -255,12 +255,12 @@ static void (*const kernels[])(sp_parabola_queue *, sp_parabola_flight *, int) =
 static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = SP_KERNELS(sp_parabola_hits);
 
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
-                            size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)
+                            size_t count, const sp_acceleration *acceleration, sp_hit *hits, bool *occluded)
 {
     sp_parabola_queue queue;
-    assert(pull->strength != 0 && (hits || occluded || count == 0));
+    assert(acceleration->strength != 0 && (hits || occluded || count == 0));
     queue.bvh = queue.pairs.bvh = bvh;
-    queue.pull = queue.pairs.pull = pull;
+    queue.acceleration = queue.pairs.acceleration = acceleration;
     queue.rays = queue.pairs.rays = rays;
     queue.order = order;
     queue.count = count;
@@ -269,7 +269,7 @@ void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, con
     queue.occluded = occluded;
     queue.prepare = prepares[instructions];
     queue.compute = computes[instructions];
-    queue.aligned = bvh->node_count > 0 && sp_bvh_order_axes(pull, queue.axis);
+    queue.aligned = bvh->node_count > 0 && sp_bvh_order_axes(acceleration, queue.axis);
     queue.starts.count = queue.starts.next = queue.pairs.count = 0;
     sp_parabola_flight flights[SP_PARABOLA_FLIGHTS];
     kernels[instructions](&queue, flights, SP_PARABOLA_FLIGHTS);

@@ -32,10 +32,10 @@ typedef struct {
     double start, rate;              /* way = (t - start) rate */
 } sp_bvh_arc;
 
-/* One coordinate of a flight in the hierarchy's space: place + t (speed + t pull/2). */
+/* One coordinate of a flight in the hierarchy's space: place + t (speed + t acceleration/2). */
 typedef struct {
-    double place, speed, pull;
-    double inverse; /* 1 / speed, where there is no pull */
+    double place, speed, acceleration;
+    double inverse; /* 1 / speed, where there is no acceleration */
 } sp_bvh_course;
 
 /* One flight on its way through the hierarchy, one piece of it after another: what it still has to visit is on its
@@ -84,7 +84,7 @@ enum { SP_PARABOLA_FLIGHTS = 8 };
 typedef struct sp_parabola_queue sp_parabola_queue;
 struct sp_parabola_queue {
     const sp_bvh *bvh;
-    const sp_pull *pull;
+    const sp_acceleration *acceleration;
     const sp_ray *rays;
     const uint32_t *order; /* [count], numbers among the rays */
     size_t count, next;    /* next: the first not yet begun nor among the starts */
@@ -100,7 +100,7 @@ struct sp_parabola_queue {
 
 /* Traces the rays of these numbers, each by itself. */
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
-                            size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded);
+                            size_t count, const sp_acceleration *acceleration, sp_hit *hits, bool *occluded);
 
 /* Lets the next flight begin that has to; false where there is none. */
 bool sp_parabola_queue_begin(sp_parabola_queue *queue, sp_parabola_flight *flight);
@@ -118,12 +118,13 @@ typedef enum {
 } sp_bvh_fitness;
 
 /* The axes in order, gravity's largest component first. True where gravity is along that alone. */
-bool sp_bvh_order_axes(const sp_pull *pull, int axis[3]);
+bool sp_bvh_order_axes(const sp_acceleration *acceleration, int axis[3]);
 /* Makes the flight ready and cuts from..to (s) to the box along the axes without gravity. */
-sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_parabola_flight *flight,
-                                          double *from, double *to);
+sp_bvh_fitness sp_parabola_flight_prepare(const sp_bvh *bvh, const sp_acceleration *acceleration,
+                                          sp_parabola_flight *flight, double *from, double *to);
 /* Makes the piece of it from `from` to `to` ready, on which no coordinate turns, and cuts it to the box. */
-sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_parabola_flight *flight, double from, double to);
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_acceleration *acceleration, sp_parabola_flight *flight, double from,
+                                  double to);
 
 /* Makes number i of the starts an arc. */
 void sp_bvh_start_take(const sp_parabola_queue *queue, int i, sp_bvh_arc *arc);

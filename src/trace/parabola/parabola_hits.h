@@ -10,14 +10,15 @@ enum { SP_PARABOLA_HITS = 32 };
 /* Ray number ray[i] of `rays` meets triangle[i], i < count. */
 typedef struct {
     const sp_bvh *bvh;
-    const sp_pull *pull;
+    const sp_acceleration *acceleration;
     const sp_ray *rays;
     uint32_t ray[SP_PARABOLA_HITS], triangle[SP_PARABOLA_HITS];
     int count;
 } sp_parabola_pairs;
 
 /* What sp_parabola_test makes of a ray and two triangles, of which the second may be SP_NONE. */
-sp_hit sp_parabola_ask(const sp_bvh *bvh, const sp_pull *pull, const sp_ray *ray, uint32_t triangle, uint32_t other);
+sp_hit sp_parabola_ask(const sp_bvh *bvh, const sp_acceleration *acceleration, const sp_ray *ray, uint32_t triangle,
+                       uint32_t other);
 
 /* Writes what sp_parabola_test makes of each pair to hits[ray[i]], to the last bit. One for each set of instructions.
  */

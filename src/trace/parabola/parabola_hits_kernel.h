@@ -42,8 +42,8 @@ static void gather(const sp_parabola_pairs *pairs, hit_lanes *h, int lanes)
 /* sp_parabola_start and look. */
 static inline void look_at_corners(const sp_parabola_pairs *pairs, hit_lanes *h, int lanes)
 {
-    const double *down = pairs->pull->down, *low = pairs->bvh->low, *high = pairs->bvh->high;
-    double d0 = down[0], d1 = down[1], d2 = down[2], pull = pairs->pull->strength;
+    const double *down = pairs->acceleration->down, *low = pairs->bvh->low, *high = pairs->bvh->high;
+    double d0 = down[0], d1 = down[1], d2 = down[2], acceleration = pairs->acceleration->strength;
     double low0 = low[0], low1 = low[1], low2 = low[2], high0 = high[0], high1 = high[1], high2 = high[2];
     for (int i = 0; i < lanes; i++) {
         double o0 = h->origin[0][i], o1 = h->origin[1][i], o2 = h->origin[2][i];
@@ -58,9 +58,10 @@ static inline void look_at_corners(const sp_parabola_pairs *pairs, hit_lanes *h,
         double farthest = sp_greater(fabs(low0 - o0), fabs(high0 - o0));
         farthest = sp_greater(farthest, sp_greater(fabs(low1 - o1), fabs(high1 - o1)));
         farthest = sp_greater(farthest, sp_greater(fabs(low2 - o2), fabs(high2 - o2)));
-        double strength = 0x1p-43 * pull * farthest, inverse = 1 / across;
-        int64_t usual = across >= 1e-280, slanted = across * (fall * fall + 4 * pull * farthest) > strength * strength;
-        int64_t finite = across + speed + pull + farthest <= DBL_MAX;
+        double strength = 0x1p-43 * acceleration * farthest, inverse = 1 / across;
+        int64_t usual = across >= 1e-280,
+                slanted = across * (fall * fall + 4 * acceleration * farthest) > strength * strength;
+        int64_t finite = across + speed + acceleration + farthest <= DBL_MAX;
         double b0 = d1 * h2 - d2 * h1, b1 = d2 * h0 - d0 * h2, b2 = d0 * h1 - d1 * h0;
         double a0 = h0 * inverse, a1 = h1 * inverse, a2 = h2 * inverse;
         for (int k = 0; k < 3; k++) {
@@ -81,16 +82,16 @@ typedef struct {
 } edge_crossing;
 
 /* The share of the way from b to c after which the flight crosses, c being the upper one where `upper` says so. */
-static inline double share_between(int64_t upper, edge_crossing b, edge_crossing c, double fall, double pull)
+static inline double share_between(int64_t upper, edge_crossing b, edge_crossing c, double fall, double acceleration)
 {
     double above = upper ? -c.below : -b.below, below = upper ? b.below : c.below;
     double upper_time = upper ? c.time : b.time, lower_time = upper ? b.time : c.time;
     double upper_depth = upper ? c.depth : b.depth, lower_depth = upper ? b.depth : c.depth;
-    double step = lower_time - upper_time, k = 0.5 * pull * step * step;
+    double step = lower_time - upper_time, k = 0.5 * acceleration * step * step;
     double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
     double share = 2 * above / (k + below + above + slope), inverse = 1 / slope;
     double time = upper_time + share * step, depth = upper_depth + share * (lower_depth - upper_depth);
-    double rest = depth - time * (fall + 0.5 * pull * time), better = share - rest * inverse;
+    double rest = depth - time * (fall + 0.5 * acceleration * time), better = share - rest * inverse;
     share = 2 * k * fabs(rest) < slope * slope ? better : share;
     share = sp_lesser(sp_greater(share, 0), 1);
     return upper ? 1 - share : share;
@@ -99,7 +100,7 @@ static inline double share_between(int64_t upper, edge_crossing b, edge_crossing
 /* cut, cross_once and offer. The lone corner is a, the others b and c in the triangle's order. */
 static inline void cross_lanes(const sp_parabola_pairs *pairs, hit_lanes *h, int lanes)
 {
-    double pull = pairs->pull->strength;
+    double acceleration = pairs->acceleration->strength;
     for (int i = 0; i < lanes; i++) {
         double beside0 = h->beside[0][i], beside1 = h->beside[1][i], beside2 = h->beside[2][i];
         double time0 = h->time[0][i], time1 = h->time[1][i], time2 = h->time[2][i];
@@ -131,19 +132,19 @@ static inline void cross_lanes(const sp_parabola_pairs *pairs, hit_lanes *h, int
         double cross_depth_b = start + share_b * (end - start);
         start = negative ? depth_a : depth_c, end = negative ? depth_c : depth_a;
         double cross_depth_c = start + share_c * (end - start);
-        double below_b = cross_depth_b - cross_time_b * (fall + 0.5 * pull * cross_time_b);
-        double below_c = cross_depth_c - cross_time_c * (fall + 0.5 * pull * cross_time_c);
+        double below_b = cross_depth_b - cross_time_b * (fall + 0.5 * acceleration * cross_time_b);
+        double below_c = cross_depth_c - cross_time_c * (fall + 0.5 * acceleration * cross_time_c);
         int64_t upper = below_b >= 0; /* c is */
         plain &= upper != (below_c >= 0);
 
         edge_crossing at_b = {cross_time_b, cross_depth_b, below_b}, at_c = {cross_time_c, cross_depth_c, below_c};
-        double share = share_between(upper, at_b, at_c, fall, pull);
+        double share = share_between(upper, at_b, at_c, fall, acceleration);
         double time = cross_time_b + share * (cross_time_c - cross_time_b);
         double depth = cross_depth_b + share * (cross_depth_c - cross_depth_b);
-        double speed = fall + pull * time, square = speed * speed;
-        double rest = depth - time * (fall + 0.5 * pull * time);
+        double speed = fall + acceleration * time, square = speed * speed;
+        double rest = depth - time * (fall + 0.5 * acceleration * time);
         double newton = time + rest / speed;
-        int64_t flat = square <= across, near = pull * fabs(rest) <= 0x1p-26 * square;
+        int64_t flat = square <= across, near = acceleration * fabs(rest) <= 0x1p-26 * square;
         double t = flat ? time : newton;
         plain &= (flat | near) & (t > h->t_min[i]) & (t < h->t_max[i]);
 
@@ -166,7 +167,7 @@ void SP_KERNEL(sp_parabola_hits)(const sp_parabola_pairs *pairs, sp_hit *hits)
     hit_lanes h;
     for (int i = 0; i < pairs->count && pairs->count < TOGETHER; i++)
         hits[pairs->ray[i]] =
-            sp_parabola_ask(pairs->bvh, pairs->pull, &pairs->rays[pairs->ray[i]], pairs->triangle[i], SP_NONE);
+            sp_parabola_ask(pairs->bvh, pairs->acceleration, &pairs->rays[pairs->ray[i]], pairs->triangle[i], SP_NONE);
     if (pairs->count < TOGETHER)
         return;
     int lanes = (pairs->count + 7) / 8 * 8;
@@ -178,6 +179,6 @@ void SP_KERNEL(sp_parabola_hits)(const sp_parabola_pairs *pairs, sp_hit *hits)
         if (h.plain[i])
             hits[ray] = (sp_hit){h.t[i], h.u[i], h.v[i], triangle};
         else
-            hits[ray] = sp_parabola_ask(pairs->bvh, pairs->pull, &pairs->rays[ray], triangle, SP_NONE);
+            hits[ray] = sp_parabola_ask(pairs->bvh, pairs->acceleration, &pairs->rays[ray], triangle, SP_NONE);
     }
 }

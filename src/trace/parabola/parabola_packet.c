@@ -42,7 +42,7 @@ typedef struct {
 
 void sp_parabola_packet_settle(sp_parabola_packet *v, int lane, uint32_t triangle)
 {
-    sp_hit hit = sp_parabola_ask(v->bvh, v->pull, &v->rays[v->ray[lane]], triangle, v->triangle[lane]);
+    sp_hit hit = sp_parabola_ask(v->bvh, v->acceleration, &v->rays[v->ray[lane]], triangle, v->triangle[lane]);
     if (hit.triangle == SP_NONE)
         return;
     float way = (float)(hit.t * v->rate);
@@ -113,7 +113,7 @@ static size_t read_rays(common_origin *c, uint32_t *left)
 }
 
 /* What all have in common; false where packets are not for them. */
-static bool begin(common_origin *c, const sp_pull *pull)
+static bool begin(common_origin *c, const sp_acceleration *acceleration)
 {
     const sp_bvh *bvh = c->bvh;
     double origin[3], fastest = 0;
@@ -122,19 +122,19 @@ static bool begin(common_origin *c, const sp_pull *pull)
         sp_vec3 v = c->rays[i].velocity;
         fastest = sp_greater(fastest, sp_greater(fabs(v.x), sp_greater(fabs(v.y), fabs(v.z))));
     }
-    assert(pull->strength != 0);
+    assert(acceleration->strength != 0);
     fastest *= bvh->scale;
     if (!(fastest > 1e-100 && fastest < 1e100))
         return false;
     c->rate = sp_bvh_power_above(fastest, &c->span);
-    c->steep = pull->vector[0] != 0 ? 0 : pull->vector[1] != 0 ? 1 : 2;
+    c->steep = acceleration->vector[0] != 0 ? 0 : acceleration->vector[1] != 0 ? 1 : 2;
     for (int k = 0; k < 3; k++) {
         double place = (origin[k] - bvh->centre[k]) * bvh->scale;
-        if (!(fabs(place) < LIMIT) || (k != c->steep && pull->vector[k] != 0))
+        if (!(fabs(place) < LIMIT) || (k != c->steep && acceleration->vector[k] != 0))
             return false;
         c->origin[k] = (float)place;
     }
-    c->bend = (float)(0.5 * pull->vector[c->steep] * bvh->scale * c->span * c->span);
+    c->bend = (float)(0.5 * acceleration->vector[c->steep] * bvh->scale * c->span * c->span);
     return fabsf(c->bend) > 1e-30f && fabsf(c->bend) < 1e3f;
 }
 
@@ -189,7 +189,7 @@ static size_t fill(const common_origin *c, size_t from, sp_parabola_packet *v)
 static void answer(const sp_parabola_packet *v, sp_instructions instructions, sp_hit *hits, bool *occluded)
 {
     static void (*const kernels[])(const sp_parabola_pairs *, sp_hit *) = SP_KERNELS(sp_parabola_hits);
-    sp_parabola_pairs pairs = {.bvh = v->bvh, .pull = v->pull, .rays = v->rays};
+    sp_parabola_pairs pairs = {.bvh = v->bvh, .acceleration = v->acceleration, .rays = v->rays};
     for (int i = 0; i < v->count; i++) {
         uint32_t ray = v->ray[i], triangle = v->triangle[i];
         if (!hits) {
@@ -238,10 +238,10 @@ static void search_all(const common_origin *c, sp_instructions instructions, sp_
 }
 
 size_t sp_parabola_packets_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
-                                 const sp_pull *pull, sp_hit *hits, bool *occluded, uint32_t *left)
+                                 const sp_acceleration *acceleration, sp_hit *hits, bool *occluded, uint32_t *left)
 {
     common_origin c = {.bvh = bvh, .rays = rays, .count = count};
-    if (bvh->node_count == 0 || count == 0 || !begin(&c, pull))
+    if (bvh->node_count == 0 || count == 0 || !begin(&c, acceleration))
         return leave_all(count, left);
     c.scaled = malloc(count * sizeof *c.scaled);
     c.order[0] = malloc(count * sizeof *c.order[0]);
@@ -249,7 +249,8 @@ size_t sp_parabola_packets_trace(const sp_bvh *bvh, sp_instructions instructions
     size_t others = 0;
     if (c.scaled && c.order[0] && c.order[1]) {
         others = read_rays(&c, left);
-        sp_parabola_packet packet = {.bvh = bvh, .rays = rays, .pull = pull, .rate = c.rate, .any = !hits};
+        sp_parabola_packet packet = {
+            .bvh = bvh, .rays = rays, .acceleration = acceleration, .rate = c.rate, .any = !hits};
         packet.steep = c.steep;
         packet.bend = c.bend;
         for (int k = 0; k < 3; k++)

@@ -28,7 +28,7 @@ typedef struct {
     double rate; /* way = t rate */
     const sp_bvh *bvh;
     const sp_ray *rays;
-    const sp_pull *pull;
+    const sp_acceleration *acceleration;
 } sp_parabola_packet;
 
 /* Decides between a triangle and the best so far. */
@@ -42,6 +42,6 @@ void sp_parabola_packet_search_avx512(sp_parabola_packet *packet);
 /* Traces rays of one origin: `hits`, or where that is NULL `occluded`, get an answer for each but those whose numbers
  * are put into left[count], in an order in which neighbours are close; returns how many these are. */
 size_t sp_parabola_packets_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
-                                 const sp_pull *pull, sp_hit *hits, bool *occluded, uint32_t *left);
+                                 const sp_acceleration *acceleration, sp_hit *hits, bool *occluded, uint32_t *left);
 
 #endif

@@ -28,7 +28,7 @@ static void gather_starts(const sp_parabola_queue *queue, const sp_bvh_starts *s
 }
 
 /* Cuts the flights along the other axes, and where the steep coordinate turns. */
-static inline void cut_straight_lanes(start_lanes *lanes, double pull, sp_bvh_starts *s, int count)
+static inline void cut_straight_lanes(start_lanes *lanes, double acceleration, sp_bvh_starts *s, int count)
 {
     for (int i = 0; i < count; i++) {
         double from = lanes->from[i], to = lanes->to[i];
@@ -39,7 +39,7 @@ static inline void cut_straight_lanes(start_lanes *lanes, double pull, sp_bvh_st
             from = sp_greater((-SP_BVH_LIMIT - way) * fabs(inverse), from);
             lanes->inverse[k][i] = inverse;
         }
-        double turn = -lanes->speed[0][i] / pull;
+        double turn = -lanes->speed[0][i] / acceleration;
         int64_t later = (turn > from) & (turn < to), inside = from <= to;
         s->end[i] = to;
         s->later[i] = later;
@@ -51,42 +51,44 @@ static inline void cut_straight_lanes(start_lanes *lanes, double pull, sp_bvh_st
 }
 
 /* time_of, both ways. */
-static inline void time_limits(start_lanes *lanes, double pull, int count)
+static inline void time_limits(start_lanes *lanes, double acceleration, int count)
 {
     for (int i = 0; i < count; i++) {
         double place = lanes->place[0][i], speed = lanes->speed[0][i];
-        double middle = speed + 0.5 * pull * (lanes->from[i] + lanes->to[i]), sign = middle < 0 ? -1.0 : 1.0;
+        double middle = speed + 0.5 * acceleration * (lanes->from[i] + lanes->to[i]), sign = middle < 0 ? -1.0 : 1.0;
         double enter = -sign * SP_BVH_LIMIT - place, leave = sign * SP_BVH_LIMIT - place;
-        double enter_square = speed * speed + 2 * pull * enter, leave_square = speed * speed + 2 * pull * leave;
+        double enter_square = speed * speed + 2 * acceleration * enter,
+               leave_square = speed * speed + 2 * acceleration * leave;
         double enter_speed = sign * sqrt(enter_square), leave_speed = sign * sqrt(leave_square);
         bool enter_alike = enter_speed * speed > 0, leave_alike = leave_speed * speed > 0;
         double enter_top = enter_alike ? 2 * enter : enter_speed - speed;
         double leave_top = leave_alike ? 2 * leave : leave_speed - speed;
-        double enter_time = enter_top / (enter_alike ? enter_speed + speed : pull);
-        double leave_time = leave_top / (leave_alike ? leave_speed + speed : pull);
+        double enter_time = enter_top / (enter_alike ? enter_speed + speed : acceleration);
+        double leave_time = leave_top / (leave_alike ? leave_speed + speed : acceleration);
         lanes->enter[i] = enter_square > 0 ? enter_time : INFINITY;
         lanes->leave[i] = leave_square > 0 ? leave_time : INFINITY;
     }
 }
 
 /* cut_curved, and whether the pieces are such as sp_bvh_arc_prepare takes. */
-static inline void cut_curved_lanes(const sp_parabola_queue *queue, start_lanes *lanes, double pull, sp_bvh_starts *s,
-                                    int count)
+static inline void cut_curved_lanes(const sp_parabola_queue *queue, start_lanes *lanes, double acceleration,
+                                    sp_bvh_starts *s, int count)
 {
-    double strength = queue->pull->strength * queue->bvh->scale;
+    double strength = queue->acceleration->strength * queue->bvh->scale;
     for (int i = 0; i < count; i++) {
         double place0 = lanes->place[0][i], place1 = lanes->place[1][i], place2 = lanes->place[2][i];
         double speed0 = lanes->speed[0][i], speed1 = lanes->speed[1][i], speed2 = lanes->speed[2][i];
         double from = lanes->from[i], to = lanes->to[i];
         double summed = sp_greater(sp_greater(1, fabs(place0)), sp_greater(fabs(place1), fabs(place2)));
         double sideways = sp_greater(fabs(speed1), fabs(speed2)), speed = sp_greater(fabs(speed0), sideways);
-        double middle = speed0 + 0.5 * pull * (from + to), sign = middle < 0 ? -1.0 : 1.0;
-        double first = sign * (place0 + from * (speed0 + 0.5 * from * pull));
-        double last = sign * (place0 + to * (speed0 + 0.5 * to * pull));
+        double middle = speed0 + 0.5 * acceleration * (from + to), sign = middle < 0 ? -1.0 : 1.0;
+        double first = sign * (place0 + from * (speed0 + 0.5 * from * acceleration));
+        double last = sign * (place0 + to * (speed0 + 0.5 * to * acceleration));
         double enter = sp_greater(from, lanes->enter[i]), leave = sp_lesser(to, lanes->leave[i]);
         from = first < -SP_BVH_LIMIT ? enter : from;
         to = last <= SP_BVH_LIMIT ? to : leave;
-        double fastest = sp_greater(sp_greater(fabs(speed0 + from * pull), fabs(speed0 + to * pull)), sideways);
+        double fastest =
+            sp_greater(sp_greater(fabs(speed0 + from * acceleration), fabs(speed0 + to * acceleration)), sideways);
         double latest = sp_greater(fabs(from), fabs(to));
         double most = 2 * (summed + latest * (speed + 0.5 * latest * strength)), way = (to - from) * fastest;
         double all = fabs(place0) + fabs(place1) + fabs(place2) + fabs(speed0) + fabs(speed1) + fabs(speed2);
@@ -111,18 +113,18 @@ static inline double clamp_way(double way)
 }
 
 /* What sp_bvh_arc_prepare and set_axis fill in. */
-static inline void fill_starts(const start_lanes *lanes, const double span[SP_BVH_STARTS], double pull,
+static inline void fill_starts(const start_lanes *lanes, const double span[SP_BVH_STARTS], double acceleration,
                                sp_bvh_starts *s, int count)
 {
     for (int i = 0; i < count; i++) {
         double from = lanes->from[i], to = lanes->to[i], rate = s->rate[i], per_rate = span[i];
         double place = lanes->place[0][i], speed = lanes->speed[0][i], length = (to - from) * rate;
-        float bend = (float)(0.5 * pull * per_rate * per_rate);
-        double slope = (speed + 0.5 * pull * (from + to)) * per_rate, inverse = fabs(1 / slope);
+        float bend = (float)(0.5 * acceleration * per_rate * per_rate);
+        double slope = (speed + 0.5 * acceleration * (from + to)) * per_rate, inverse = fabs(1 / slope);
         double way = fabs(slope) > 0x1p-60 ? inverse : 0x1p60;
         double off = -0.25 * bend * length * length, ahead = slope > 0 ? off : -off;
-        s->origin[0][i] = (float)(place + from * (speed + 0.5 * from * pull));
-        s->direction[0][i] = (float)((speed + from * pull) * per_rate);
+        s->origin[0][i] = (float)(place + from * (speed + 0.5 * from * acceleration));
+        s->direction[0][i] = (float)((speed + from * acceleration) * per_rate);
         s->inverse[0][i] = (float)way;
         s->bend[i] = bend;
         s->sooner[i] = (float)(-sp_greater(ahead, 0) * way);
@@ -146,13 +148,13 @@ static inline void fill_starts(const start_lanes *lanes, const double span[SP_BV
 void SP_KERNEL(sp_bvh_prepare_starts)(const sp_parabola_queue *queue, sp_bvh_starts *starts)
 {
     start_lanes lanes = {0};
-    double pull = queue->pull->vector[queue->axis[0]] * queue->bvh->scale, span[SP_BVH_STARTS];
+    double acceleration = queue->acceleration->vector[queue->axis[0]] * queue->bvh->scale, span[SP_BVH_STARTS];
     int count = (starts->count + 7) / 8 * 8;
     gather_starts(queue, starts, &lanes);
-    cut_straight_lanes(&lanes, pull, starts, count);
-    time_limits(&lanes, pull, count);
-    cut_curved_lanes(queue, &lanes, pull, starts, count);
+    cut_straight_lanes(&lanes, acceleration, starts, count);
+    time_limits(&lanes, acceleration, count);
+    cut_curved_lanes(queue, &lanes, acceleration, starts, count);
     for (int i = 0; i < count; i++)
         starts->rate[i] = sp_bvh_power_above(starts->rate[i], &span[i]);
-    fill_starts(&lanes, span, pull, starts, count);
+    fill_starts(&lanes, span, acceleration, starts, count);
 }

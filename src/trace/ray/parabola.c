@@ -37,21 +37,21 @@ static inline void cross(const double a[3], const double b[3], double product[3]
     product[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-sp_pull sp_pull_of(sp_vec3 gravity)
+sp_acceleration sp_acceleration_of(sp_vec3 gravity)
 {
-    sp_pull pull = {.strength = 0};
-    sp_to_array(gravity, pull.vector);
+    sp_acceleration acceleration = {.strength = 0};
+    sp_to_array(gravity, acceleration.vector);
     if (gravity.x == 0 && gravity.y == 0 && gravity.z == 0)
-        return pull;
+        return acceleration;
     /* by its largest component, as the square of a weak one would be nothing */
     double largest = sp_greater(sp_greater(fabs(gravity.x), fabs(gravity.y)), fabs(gravity.z));
     for (int k = 0; k < 3; k++)
-        pull.down[k] = pull.vector[k] / largest;
-    double length = sqrt(dot(pull.down, pull.down));
+        acceleration.down[k] = acceleration.vector[k] / largest;
+    double length = sqrt(dot(acceleration.down, acceleration.down));
     for (int k = 0; k < 3; k++)
-        pull.down[k] /= length;
-    pull.strength = largest * length;
-    return pull;
+        acceleration.down[k] /= length;
+    acceleration.strength = largest * length;
+    return acceleration;
 }
 
 /* Two horizontal directions, along axes where gravity is. */
@@ -65,17 +65,17 @@ static void set_vertical(sp_parabola *p)
     cross(p->beside, p->down, p->ahead);
 }
 
-bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, const double low[3],
+bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_acceleration *acceleration, const double low[3],
                        const double high[3])
 {
     sp_to_array(ray->origin, p->origin);
     sp_to_array(ray->velocity, p->velocity);
     double horizontal[3];
-    p->pull = pull->strength;
-    p->fall = dot(p->velocity, pull->down);
+    p->acceleration = acceleration->strength;
+    p->fall = dot(p->velocity, acceleration->down);
     for (int k = 0; k < 3; k++) {
-        p->gravity[k] = pull->vector[k];
-        p->down[k] = pull->down[k];
+        p->gravity[k] = acceleration->vector[k];
+        p->down[k] = acceleration->down[k];
         horizontal[k] = p->velocity[k] - p->fall * p->down[k];
     }
     /* Once more: what rounding left of the fall in it would be seen as way ahead over all of the depth. */
@@ -88,9 +88,11 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
     for (int axis = 0; axis < 3; axis++)
         p->farthest =
             sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
-    /* Where it is again as deep as the box reaches, it has gone at most 2 across √(fall² + 4 pull farthest) / pull. */
-    double strength = 0x1p-43 * p->pull * p->farthest;
-    if (p->across < 1e-280 || p->across * (p->fall * p->fall + 4 * p->pull * p->farthest) <= strength * strength) {
+    /* Where it is again as deep as the box reaches, it has gone at most 2 across √(fall² + 4 acceleration farthest) /
+     * acceleration. */
+    double strength = 0x1p-43 * p->acceleration * p->farthest;
+    if (p->across < 1e-280 ||
+        p->across * (p->fall * p->fall + 4 * p->acceleration * p->farthest) <= strength * strength) {
         set_vertical(p);
     } else {
         p->vertical = false;
@@ -99,13 +101,13 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
         for (int k = 0; k < 3; k++)
             p->ahead[k] = horizontal[k] * inverse;
     }
-    return isfinite(p->across + p->speed + p->pull + p->farthest);
+    return isfinite(p->across + p->speed + p->acceleration + p->farthest);
 }
 
 bool sp_parabola_limit(const sp_parabola *p, sp_ray_search *search)
 {
     double reach = 2 * p->farthest; /* along gravity and across it; a space diagonal has at most √3 */
-    double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->pull * reach)) / p->pull;
+    double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->acceleration * reach)) / p->acceleration;
     if (p->across > 0x1p-40 * p->speed * p->speed) /* else it is mostly rounding */
         longest = sp_lesser(longest, reach / sqrt(p->across));
     longest = sp_lesser(1.01 * longest, 1e100);
@@ -137,7 +139,7 @@ static inline view look(const sp_parabola *p, const sp_corners corners)
 /* What a point of the flight's plane lies below the flight, m. */
 static inline double below_flight(const sp_parabola *p, double time, double depth)
 {
-    return depth - time * (p->fall + 0.5 * p->pull * time);
+    return depth - time * (p->fall + 0.5 * p->acceleration * time);
 }
 
 /* Where an edge crosses the flight's plane. */
@@ -159,12 +161,13 @@ static inline crossing cross_edge(const sp_parabola *p, const view *v, int negat
 /* When the flight comes to a point of it: told by the depth where it is steep, else by the way ahead. */
 static inline double arrival(const sp_parabola *p, double time, double depth)
 {
-    double speed = p->fall + p->pull * time, rest = below_flight(p, time, depth), square = speed * speed, roots[2];
+    double speed = p->fall + p->acceleration * time, rest = below_flight(p, time, depth), square = speed * speed,
+           roots[2];
     if (square <= p->across)
         return time;
-    if (p->pull * fabs(rest) <= 0x1p-26 * square) /* Newton's step leaves 2^-27 of itself undone */
+    if (p->acceleration * fabs(rest) <= 0x1p-26 * square) /* Newton's step leaves 2^-27 of itself undone */
         return time + rest / speed;
-    return sp_quadratic_roots(p->pull, p->fall, -depth, roots) ? roots[speed > 0] : -p->fall / p->pull;
+    return sp_quadratic_roots(p->acceleration, p->fall, -depth, roots) ? roots[speed > 0] : -p->fall / p->acceleration;
 }
 
 /* The segment between two crossings. */
@@ -193,14 +196,14 @@ static bool offer(const segment *s, double share, sp_ray_search *search)
 }
 
 /* From an end above the flight to one below it. With μ the share of the way, A and B what they are above and below, and
- * k = pull/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight, and crosses it
- * at 2 A / (A + B + k + √(slope²)), the slope there being √((k - A)² + B² + 2 B (k + A)): sums of what is not
- * negative. */
+ * k = acceleration/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight, and
+ * crosses it at 2 A / (A + B + k + √(slope²)), the slope there being √((k - A)² + B² + 2 B (k + A)): sums of what is
+ * not negative. */
 static void cross_once(const segment *s, int upper, sp_ray_search *search)
 {
     const crossing *a = &s->ends[upper], *b = &s->ends[1 - upper];
     double above = -a->below, below = b->below, step = b->time - a->time;
-    double k = 0.5 * s->flight->pull * step * step;
+    double k = 0.5 * s->flight->acceleration * step * step;
     double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
     double share = 2 * above / (k + below + above + slope), inverse = 1 / slope;
     /* Where the ends are far out, they are so much above and below that digits were lost: once more, from nearby. */
@@ -218,13 +221,13 @@ static void cross_twice(const segment *s, sp_ray_search *search)
     const sp_parabola *p = s->flight;
     const crossing *a = &s->ends[0], *b = &s->ends[1];
     double step = b->time - a->time, rise = b->depth - a->depth;
-    double middle = (rise / step - p->fall) / p->pull, share = (middle - a->time) / step;
+    double middle = (rise / step - p->fall) / p->acceleration, share = (middle - a->time) / step;
     if (!(share > 0 && share < 1))
         return;
     double below = below_flight(p, middle, a->depth + share * rise);
     if (!(below >= 0))
         return;
-    double way = sqrt(2 * below / p->pull) / step; /* of the sign of step: less of it is sooner */
+    double way = sqrt(2 * below / p->acceleration) / step; /* of the sign of step: less of it is sooner */
     if (!offer(s, sp_lesser(sp_greater(share - way, 0), 1), search))
         offer(s, sp_lesser(sp_greater(share + way, 0), 1), search);
 }
@@ -262,7 +265,7 @@ static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_ra
         return;
     double sum = weights[0] + weights[1] + weights[2];
     double depth = (weights[0] * v->depth[0] + weights[1] * v->depth[1] + weights[2] * v->depth[2]) / sum;
-    if (!sp_quadratic_roots(p->pull, p->fall, -depth, roots))
+    if (!sp_quadratic_roots(p->acceleration, p->fall, -depth, roots))
         return;
     for (int i = 0; i < 2; i++)
         if (sp_ray_search_wants(search, roots[i], triangle)) {

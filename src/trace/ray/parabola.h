@@ -5,15 +5,15 @@
 #include "trace/kd/kd_tree.h"
 #include "trace/ray/search.h"
 
-/* Gravity, made ready. */
+/* The acceleration of a flight, gravity or with drag that of a piece of it, prepared for tests. */
 typedef struct {
     double vector[3]; /* m/s² */
     double strength;  /* its length */
     double down[3];   /* its direction */
-} sp_pull;
+} sp_acceleration;
 
 /* Without gravity there is no strength, and no direction. */
-sp_pull sp_pull_of(sp_vec3 gravity);
+sp_acceleration sp_acceleration_of(sp_vec3 gravity);
 
 /* A flight x(t) = origin + velocity t + gravity t²/2. Three products with a point's way from the origin tell all that
  * matters of it: how far it is beside the vertical plane of the flight, when the flight comes above or below it, and
@@ -21,20 +21,20 @@ sp_pull sp_pull_of(sp_vec3 gravity);
  * across it. */
 typedef struct {
     double origin[3], velocity[3], gravity[3];
-    double beside[3]; /* m²/s: horizontal, across the horizontal velocity, and as long */
-    double ahead[3];  /* s/m: the horizontal velocity over its square */
-    double down[3];   /* 1 */
-    bool vertical;    /* then beside and ahead are horizontal directions (1) */
-    double fall;      /* m/s, downward speed at t = 0 */
-    double across;    /* m²/s², square of the horizontal speed */
-    double pull;      /* m/s² */
-    double speed;     /* m/s, at t = 0, all components added up */
-    double farthest;  /* m, largest distance along an axis from the origin to the box around all triangles */
+    double beside[3];    /* m²/s: horizontal, across the horizontal velocity, and as long */
+    double ahead[3];     /* s/m: the horizontal velocity over its square */
+    double down[3];      /* 1 */
+    bool vertical;       /* then beside and ahead are horizontal directions (1) */
+    double fall;         /* m/s, downward speed at t = 0 */
+    double across;       /* m²/s², square of the horizontal speed */
+    double acceleration; /* m/s² */
+    double speed;        /* m/s, at t = 0, all components added up */
+    double farthest;     /* m, largest distance along an axis from the origin to the box around all triangles */
 } sp_parabola;
 
 /* False where nothing can be hit: numbers that are not finite. `low` and `high` are the box around all triangles. */
-bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, const sp_pull *pull, const double low[3],
-                       const double high[3]);
+bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, const sp_acceleration *acceleration,
+                       const double low[3], const double high[3]);
 /* Leaves the search no times at which the flight is not in that box; false where there are no others. */
 bool sp_parabola_limit(const sp_parabola *parabola, sp_ray_search *search);
 /* x, along one axis, and all that it is summed from, m. */
@@ -44,7 +44,7 @@ static inline double sp_parabola_coordinate(const sp_parabola *p, int axis, doub
 }
 static inline double sp_parabola_summed(const sp_parabola *p, double t)
 {
-    return p->farthest + fabs(t) * (p->speed + 0.5 * fabs(t) * p->pull);
+    return p->farthest + fabs(t) * (p->speed + 0.5 * fabs(t) * p->acceleration);
 }
 
 /* The real roots of a/2 t² + b t + c = 0 in ascending order, two of them, equal where they are one; false where there

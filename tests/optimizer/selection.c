@@ -117,7 +117,7 @@ static bool fits_port(const sp_coverage_matrix *matrix, const uint32_t *rows, si
 }
 
 /* The most that any layout of at most three rows covers with so much water. */
-static double best_of_all(const sp_coverage_matrix *matrix, double budget, sp_lineup *lineup)
+static double best_of_all(const sp_coverage_matrix *matrix, double budget, sp_selection *selection)
 {
     uint32_t count = (uint32_t)matrix->row_count;
     double best = 0;
@@ -128,9 +128,9 @@ static double best_of_all(const sp_coverage_matrix *matrix, double budget, sp_li
                 size_t taken = b == count ? 1 : c == count ? 2 : 3;
                 if ((b == count && c != count) || !fits_port(matrix, rows, taken))
                     continue;
-                sp_lineup_set(lineup, rows, taken);
-                if (lineup->flow <= budget)
-                    best = fmax(best, lineup->covered);
+                sp_selection_set(selection, rows, taken);
+                if (selection->flow <= budget)
+                    best = fmax(best, selection->covered);
             }
     return best;
 }
@@ -143,30 +143,30 @@ static void enumeration_comes_near_the_best(void **state)
         job j;
         sp_error error = {0};
         sp_coverage_matrix matrix;
-        sp_lineup lineups[6], scratch;
+        sp_selection selections[6], scratch;
         double budgets[6];
         job_open(&j, single);
         assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
         assert_true(matrix.row_count >= 14);
         assert_int_equal(matrix.patch_count, j.ready.search.patch_count);
-        assert_true(sp_lineup_create(&matrix, &scratch, &error));
+        assert_true(sp_selection_create(&matrix, &scratch, &error));
         for (size_t i = 0; i < 6; i++)
             budgets[i] = LITRES(waters[i]) * (1 + SP_ROUNDING);
-        assert_true(sp_enumerate_partially(&matrix, budgets, 6, &j.ready.deadline, lineups, &error));
+        assert_true(sp_enumerate_partially(&matrix, budgets, 6, &j.ready.deadline, selections, &error));
         for (size_t i = 0; i < 6; i++) {
             double best = best_of_all(&matrix, budgets[i], &scratch);
-            assert_true(lineups[i].flow <= budgets[i]);
-            assert_true(fits_port(&matrix, lineups[i].row, lineups[i].count));
-            assert_true(lineups[i].covered <= best * (1 + 1e-6));
-            if (lineups[i].covered < best * (1 - SHORT_MOST))
+            assert_true(selections[i].flow <= budgets[i]);
+            assert_true(fits_port(&matrix, selections[i].row, selections[i].count));
+            assert_true(selections[i].covered <= best * (1 + 1e-6));
+            if (selections[i].covered < best * (1 - SHORT_MOST))
                 fail_msg("%s, %g L/min: found %g m2, the best is %g m2", single ? "single" : "sum", waters[i],
-                         lineups[i].covered, best);
+                         selections[i].covered, best);
             /* the matrix's sums are the evaluator's */
-            double area = area_of(&j, lineups[i].row, lineups[i].count, single);
-            assert_true(fabs(area - lineups[i].covered) < 1e-3 * area);
-            sp_lineup_free(&lineups[i]);
+            double area = area_of(&j, selections[i].row, selections[i].count, single);
+            assert_true(fabs(area - selections[i].covered) < 1e-3 * area);
+            sp_selection_free(&selections[i]);
         }
-        sp_lineup_free(&scratch);
+        sp_selection_free(&scratch);
         sp_coverage_matrix_free(&matrix);
         job_close(&j);
     }
@@ -179,10 +179,10 @@ static void two_merge_into_the_best_one(void **state)
     job j;
     sp_error error = {0};
     sp_coverage_matrix matrix;
-    sp_lineup lineup, scratch;
+    sp_selection selection, scratch;
     job_open(&j, false);
     assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
-    assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
+    assert_true(sp_selection_create(&matrix, &selection, &error) && sp_selection_create(&matrix, &scratch, &error));
     uint32_t narrow[3], found = 0;
     for (uint32_t r = 0; r < matrix.row_count && found < 3; r++)
         if (j.ready.candidates.variants[j.pool.items[r].variant].type == &j.types[1])
@@ -191,32 +191,32 @@ static void two_merge_into_the_best_one(void **state)
     for (int i = 0; i < 2; i++) {
         /* 14 L/min allow no wide one; with a third narrow one's water there would be */
         double best = 0, most = LITRES(i ? 16 : 14) * (1 + SP_ROUNDING);
-        sp_lineup_set(&lineup, narrow, 3);
+        sp_selection_set(&selection, narrow, 3);
         for (uint32_t r = 0; r < matrix.row_count; r++) {
             uint32_t rows[2] = {narrow[1], r};
-            sp_lineup_set(&scratch, rows, 2);
+            sp_selection_set(&scratch, rows, 2);
             if (sp_coverage_matrix_flow(&matrix, r) <= LITRES(14) * (1 + SP_ROUNDING) && fits_port(&matrix, rows, 2))
                 best = fmax(best, scratch.covered);
         }
-        assert_true(sp_lineup_merge(&lineup, 0, 2, LITRES(7) + most));
-        assert_int_equal(lineup.count, 2);
-        assert_int_equal(lineup.row[0], narrow[1]);
-        assert_true(fabs(lineup.covered - best) < 1e-6 * best);
-        assert_true(lineup.flow <= LITRES(21) * (1 + SP_ROUNDING));
+        assert_true(sp_selection_merge(&selection, 0, 2, LITRES(7) + most));
+        assert_int_equal(selection.count, 2);
+        assert_int_equal(selection.row[0], narrow[1]);
+        assert_true(fabs(selection.covered - best) < 1e-6 * best);
+        assert_true(selection.flow <= LITRES(21) * (1 + SP_ROUNDING));
     }
     /* no water, no merge */
-    sp_lineup_set(&lineup, narrow, 2);
-    double before = lineup.covered;
-    assert_false(sp_lineup_merge(&lineup, 0, 1, LITRES(5)));
-    assert_int_equal(lineup.count, 2);
-    assert_true(lineup.covered == before);
-    sp_lineup_free(&lineup);
-    sp_lineup_free(&scratch);
+    sp_selection_set(&selection, narrow, 2);
+    double before = selection.covered;
+    assert_false(sp_selection_merge(&selection, 0, 1, LITRES(5)));
+    assert_int_equal(selection.count, 2);
+    assert_true(selection.covered == before);
+    sp_selection_free(&selection);
+    sp_selection_free(&scratch);
     sp_coverage_matrix_free(&matrix);
     job_close(&j);
 }
 
-/* Regrouping never loses, and a lineup is the same partial layout on all patches. */
+/* Regrouping never loses, and a selection is the same partial layout on all patches. */
 static void regrouping_never_loses(void **state)
 {
     (void)state;
@@ -224,26 +224,26 @@ static void regrouping_never_loses(void **state)
         job j;
         sp_error error = {0};
         sp_coverage_matrix matrix;
-        sp_lineup lineup, scratch;
+        sp_selection selection, scratch;
         job_open(&j, single);
         assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
-        assert_true(sp_lineup_create(&matrix, &lineup, &error) && sp_lineup_create(&matrix, &scratch, &error));
+        assert_true(sp_selection_create(&matrix, &selection, &error) && sp_selection_create(&matrix, &scratch, &error));
         for (uint32_t first = 0; first + 2 < matrix.row_count; first++) {
             uint32_t rows[3] = {first, first + 1, first + 2};
             if (!fits_port(&matrix, rows, 3))
                 continue;
-            sp_lineup_set(&lineup, rows, 3);
-            double budget = lineup.flow * (1 + SP_ROUNDING), before = lineup.covered;
-            sp_lineup_regroup(&lineup, budget, &scratch);
-            assert_true(lineup.covered >= before && lineup.flow <= budget);
+            sp_selection_set(&selection, rows, 3);
+            double budget = selection.flow * (1 + SP_ROUNDING), before = selection.covered;
+            sp_selection_regroup(&selection, budget, &scratch);
+            assert_true(selection.covered >= before && selection.flow <= budget);
             sp_partial partial;
-            assert_true(sp_lineup_partial(&lineup, &partial, &error));
-            assert_true(fabs(partial.covered - lineup.covered) < 1e-5 * lineup.covered);
-            assert_true(fabs(partial.flow - lineup.flow) < 1e-12);
+            assert_true(sp_selection_partial(&selection, &partial, &error));
+            assert_true(fabs(partial.covered - selection.covered) < 1e-5 * selection.covered);
+            assert_true(fabs(partial.flow - selection.flow) < 1e-12);
             sp_partial_free(&partial);
         }
-        sp_lineup_free(&lineup);
-        sp_lineup_free(&scratch);
+        sp_selection_free(&selection);
+        sp_selection_free(&scratch);
         sp_coverage_matrix_free(&matrix);
         job_close(&j);
     }
@@ -287,7 +287,7 @@ static void tuned_poses_say_their_flow(void **state)
 static void memos_tell_questions_apart(void **state)
 {
     (void)state;
-    sp_lineup_memo memo = {0};
+    sp_selection_memo memo = {0};
     static const struct {
         uint32_t row[3];
         size_t count;
@@ -297,21 +297,21 @@ static void memos_tell_questions_apart(void **state)
                  {{3, 1, 2}, 3, 0, 5, 0.5f}, {{3, 1, 2}, 3, 1, 6, 0.5f}, {{3, 1, 2}, 3, 1, 5, 0}};
     const size_t count = sizeof asked / sizeof *asked;
     for (size_t i = 0; i < count; i++) {
-        sp_lineup_question question =
-            sp_lineup_ask(asked[i].row, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
-        assert_null(sp_lineup_memo_find(&memo, &question));
-        sp_lineup_memo_note(&memo, &question, (sp_lineup_answer){(uint32_t)i, (double)i});
+        sp_selection_question question =
+            sp_selection_ask(asked[i].row, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
+        assert_null(sp_selection_memo_find(&memo, &question));
+        sp_selection_memo_note(&memo, &question, (sp_selection_answer){(uint32_t)i, (double)i});
     }
     for (size_t i = 0; i < count; i++) {
         uint32_t turned[3] = {asked[i].row[1], asked[i].row[2], asked[i].row[0]};
         const uint32_t *rows = asked[i].count == 3 ? turned : asked[i].row;
-        sp_lineup_question question =
-            sp_lineup_ask(rows, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
-        const sp_lineup_answer *answer = sp_lineup_memo_find(&memo, &question);
+        sp_selection_question question =
+            sp_selection_ask(rows, asked[i].count, asked[i].power, asked[i].credit, asked[i].budget);
+        const sp_selection_answer *answer = sp_selection_memo_find(&memo, &question);
         assert_non_null(answer);
         assert_int_equal(answer->row, i);
     }
-    sp_lineup_memo_free(&memo);
+    sp_selection_memo_free(&memo);
 }
 
 int main(void)
