@@ -1,6 +1,5 @@
 #include "ranks/messages.h"
 
-#include "mesh/grow.h"
 #include "module/module.h"
 #include "ranks/mpi/module.h"
 
@@ -188,29 +187,6 @@ void sp_ranks_leave(sp_ranks *ranks)
     free(ranks);
 }
 
-void sp_pack(sp_outgoing *outgoing, const void *bytes, size_t size)
-{
-    outgoing->lacks_memory =
-        outgoing->lacks_memory || !sp_grow(&outgoing->bytes, &outgoing->capacity, outgoing->count + size, 1);
-    if (outgoing->lacks_memory || !size)
-        return;
-    memcpy(outgoing->bytes + outgoing->count, bytes, size);
-    outgoing->count += size;
-}
-
-void sp_outgoing_free(sp_outgoing *outgoing)
-{
-    free(outgoing->bytes);
-    *outgoing = (sp_outgoing){0};
-}
-
-void sp_gathered_free(sp_gathered *gathered)
-{
-    free(gathered->at);
-    free(gathered->bytes);
-    *gathered = (sp_gathered){0};
-}
-
 /* After the roll all wait for what was announced: whoever has no memory for it cannot say so any more. */
 static void give_up(const sp_ranks *ranks)
 {
@@ -259,13 +235,4 @@ bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_outgoing *outgoing, s
     }
     sp_outgoing_free(outgoing);
     return done;
-}
-
-bool sp_unpack(sp_gathered *gathered, size_t rank, void *bytes, size_t size)
-{
-    if (rank >= gathered->count || size > gathered->end[rank] - gathered->at[rank])
-        return false;
-    memcpy(bytes, gathered->bytes + gathered->at[rank], size);
-    gathered->at[rank] += size;
-    return true;
 }

@@ -9,6 +9,10 @@
 #define SP_FEWEST_TEXELS 30000
 #define SP_MOST_TEXELS 1600000
 
+/* auto_method.c: the setup's fidelity with the plain safe choice for what it leaves to auto, but for sizes, which wait
+ * for the wet sides. Fails with SP_ERROR_INPUT for what does not go together. */
+bool sp_auto_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error);
+
 /* Sets the evaluator's fidelity and choice and makes its texels: sp_evaluator_create_for says how. Its tracer and wet
  * sides are there, and its texel is the setup's or the plain one. */
 bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);

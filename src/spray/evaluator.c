@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define AUTO_REFLECTIONS 3
-
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
 {
     if (!setup->run.progress || setup->run.progress(setup->run.user, stage, done))
@@ -107,45 +105,6 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
            sp_geometry_is_resolved(setup, error);
 }
 
-static bool anything_reflects(const sp_setup *setup)
-{
-    for (size_t i = 0; i < setup->mesh->part_count; i++)
-        if (setup->surfaces[i].restitution > 0)
-            return true;
-    return false;
-}
-
-static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
-{
-    bool reflects = fidelity->reflections != 0 && anything_reflects(setup);
-    if (fidelity->method == SP_METHOD_INVERSE && fidelity->reflections > 0)
-        return sp_fail(
-            error, SP_ERROR_INPUT, NULL, 0, 0,
-            "reflections: %d found with evaluator inverse, which knows primary impact only; expected 0 or auto, "
-            "or evaluator forward",
-            fidelity->reflections);
-    if (fidelity->method == SP_METHOD_INVERSE && fidelity->splat == SP_SPLAT_LINEAR)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "splat: linear found with evaluator inverse, which has no jets to share; expected nearest, or "
-                       "evaluator forward");
-    if (fidelity->method == SP_METHOD_AUTO)
-        fidelity->method = reflects || fidelity->splat == SP_SPLAT_LINEAR ? SP_METHOD_FORWARD : SP_METHOD_INVERSE;
-    if (fidelity->method == SP_METHOD_INVERSE)
-        fidelity->reflections = 0;
-    else if (fidelity->reflections < 0)
-        fidelity->reflections = reflects ? AUTO_REFLECTIONS : 0;
-    return true;
-}
-
-/* The plain safe choice for what the setup leaves to auto, but for sizes, which wait for the wet sides. */
-static bool resolve(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
-{
-    *fidelity = setup->fidelity;
-    if (fidelity->trajectory == SP_TRAJECTORY_AUTO)
-        fidelity->trajectory = SP_TRAJECTORY_PARABOLA;
-    return resolve_method(setup, fidelity, error);
-}
-
 bool sp_fail_nothing(sp_error *error)
 {
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
@@ -202,7 +161,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
         return sp_fail_memory(error);
     evaluator->setup = *setup;
     evaluator->began = sp_now();
-    if (!resolve(setup, &evaluator->fidelity, error)) {
+    if (!sp_auto_method(setup, &evaluator->fidelity, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }

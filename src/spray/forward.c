@@ -5,7 +5,7 @@
 #include "criterion.h"
 #include "emitter.h"
 #include "launch.h"
-#include "lit.h"
+#include "lit_share.h"
 #include "movers.h"
 #include "splat.h"
 #include "tally.h"

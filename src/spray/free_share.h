@@ -3,7 +3,7 @@
 #ifndef SPRAY_FREE_SHARE_H
 #define SPRAY_FREE_SHARE_H
 
-#include "gathering.h"
+#include "ray_queue_state.h"
 
 /* The share of an arrival's time in which no goods are in the way of the queue's ray `i`: all or none where they are
  * looked at in one position, and of what stands the mean over the pass. */

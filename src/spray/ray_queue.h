@@ -2,7 +2,7 @@
 #ifndef SPRAY_RAY_QUEUE_H
 #define SPRAY_RAY_QUEUE_H
 
-#include "gathering.h"
+#include "ray_queue_state.h"
 
 /* Room for as many more arrivals; false where memory ran out, as from then on. */
 bool sp_ray_queue_make_room(sp_ray_queue *queue, size_t more);

@@ -23,7 +23,8 @@ bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shell
 /* Accepts what was never created, if it is all zeros. */
 void sp_cuts_destroy(sp_cuts *cuts);
 
-/* The cell that holds a point of a triangle that has cells. *near is set where a cut is nearer than the contact. */
+/* cells.c: the cell that holds a point of a triangle that has cells. *near is set where a cut is nearer than the
+ * contact. */
 uint32_t sp_cuts_cell(const sp_cuts *cuts, uint32_t triangle, double u, double v, bool *near);
 
 /* A convex part of a triangle, as weights of its second and third corner. */
@@ -33,6 +34,8 @@ typedef struct {
     double at[SP_PIECE_POINTS][2];
 } sp_triangle_piece;
 
+/* The part of a convex piece on one side of a cut: where it is above 0 (`way` 1) or below (-1). cells.c. */
+void sp_piece_clip(const sp_triangle_piece *piece, const sp_cut *cut, int way, sp_triangle_piece *part);
 /* Calls `visit` with every part of a piece that lies in one cell, for all cells that have some of it. A part of very
  * many corners comes as several. */
 typedef void sp_cell_visitor(void *user, uint32_t cell, const sp_triangle_piece *part);

@@ -1,6 +1,6 @@
 /* Which share of a patch the jets of one nozzle light up, where its spray ends within the patch. */
-#ifndef SPRAY_LIT_H
-#define SPRAY_LIT_H
+#ifndef SPRAY_LIT_SHARE_H
+#define SPRAY_LIT_SHARE_H
 
 #include "spray/state/state.h"
 

@@ -1,4 +1,4 @@
-#include "lit.h"
+#include "lit_share.h"
 
 #include "spray/wet/cuts.h"
 

@@ -1,6 +1,6 @@
 /* What is gathered of the flights to a chunk of patches, before it is known whether their way is free. */
-#ifndef SPRAY_GATHERING_H
-#define SPRAY_GATHERING_H
+#ifndef SPRAY_RAY_QUEUE_STATE_H
+#define SPRAY_RAY_QUEUE_STATE_H
 
 #include "aim.h"
 
