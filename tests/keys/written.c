@@ -77,9 +77,16 @@ static names *written_keys(void)
                                          "name",
                                          "seconds",
                                          "processor_seconds"}; /* in tables and json_pack */
-    char *json = read_source("result/json.c"), *reasons = read_source("result/reasons.c");
-    add_literals(json, " put(", &written);
-    add_literals(json, "(put(", &written);
+    static const char *const sources[] = {"result/json.c", "result/json_layout.c", "result/json_proposal.c"};
+    char *json = calloc(1, 1), *reasons = read_source("result/reasons.c");
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
+        char *source = read_source(sources[i]);
+        json = realloc(json, strlen(json) + strlen(source) + 1);
+        assert_non_null(json);
+        strcat(json, source);
+        free(source);
+    }
+    add_literals(json, "sp_put(", &written);
     add_literals(json, "put_", &written);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         char literal[NAME + 2];
