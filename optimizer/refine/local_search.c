@@ -2,7 +2,7 @@
 
 #include "scoring/prepare.h"
 #include "refine/compass.h"
-#include "scoring/partial_packing.h"
+#include "refine/dealt_trials.h"
 #include "scoring/scoring.h"
 #include "search/walk.h"
 
@@ -283,87 +283,12 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
     return trials[i].better;
 }
 
-/* On a thread of its own, with that thread's sights. */
-typedef bool (*trial_step)(const sp_local_search *local, sp_trial *trial, sp_error *error);
-
-static sp_ranks *ranks_of(const sp_local_search *local)
-{
-    return local->search->options->run.ranks;
-}
-
-/* Takes the step for trial i where it is this rank's, and all are asked for, or it is better. */
-static void take(const sp_local_search *local, sp_trial *trials, size_t i, bool better, trial_step step,
-                 sp_error *failure)
-{
-    sp_error mine = {0};
-    if (sp_ranks_mine(ranks_of(local), i) && (!better || trials[i].better) && !step(local, &trials[i], &mine)) {
-#pragma omp critical(sp_local_search_failure)
-        *failure = mine;
-    }
-}
-
-/* Every trial, or those that are better; the last, which have most nozzles, first, so that no thread is left alone with
- * one of these. Threads that are left without any take parts of the others' (team.h). */
-static bool for_each(const sp_local_search *local, sp_trial *trials, size_t count, bool better, trial_step step,
-                     sp_error *error)
-{
-    sp_error failure = {0};
-    sp_ranks_part(ranks_of(local));
-#pragma omp parallel for num_threads(local->threads) schedule(dynamic, 1)
-    for (size_t k = 0; k < count; k++)
-        take(local, trials, count - 1 - k, better, step, &failure);
-    sp_ranks_rejoin(ranks_of(local));
-    if (failure.kind == SP_OK)
-        return true;
-    return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
-}
-
-/* What the others' trials came to on few patches: nothing where that does not come. */
-static bool share_merits(const sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
-{
-    sp_ranks *ranks = ranks_of(local);
-    sp_outgoing outgoing = {0};
-    sp_gathered gathered;
-    for (size_t i = 0; i < count; i++)
-        if (sp_ranks_mine(ranks, i)) {
-            sp_pack(&outgoing, &trials[i].better, sizeof trials[i].better);
-            sp_pack(&outgoing, &trials[i].covered, sizeof trials[i].covered);
-        }
-    if (!sp_ranks_gather(ranks, "merits", &outgoing, &gathered, error))
-        return false;
-    for (size_t i = 0; i < count; i++)
-        if (!sp_ranks_mine(ranks, i) && sp_unpack(&gathered, sp_ranks_owner(ranks, i), &trials[i].better, sizeof(bool)))
-            sp_unpack(&gathered, sp_ranks_owner(ranks, i), &trials[i].covered, sizeof(double));
-    sp_gathered_free(&gathered);
-    return true;
-}
-
-/* The others' layouts, of all trials or of those that are better. */
-static bool share_partials(const sp_local_search *local, sp_trial *trials, size_t count, bool better, sp_error *error)
-{
-    const sp_search *search = local->search;
-    sp_ranks *ranks = ranks_of(local);
-    sp_outgoing outgoing = {0};
-    sp_gathered gathered;
-    for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
-        if (sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            sp_pack_partial(search, &trials[i].partial, &outgoing);
-    if (!sp_ranks_gather(ranks, "trials", &outgoing, &gathered, error))
-        return false;
-    bool done = true;
-    for (size_t i = 0; done && i < count; i++)
-        if (!sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            done = sp_unpack_partial(search, &gathered, sp_ranks_owner(ranks, i), &trials[i].partial, error);
-    sp_gathered_free(&gathered);
-    return done;
-}
-
 bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done = for_each(local, trials, count, false, walk, error);
+    bool done = sp_trials_for_each(local, trials, count, false, walk, error);
     find_repeats(trials, count);
-    done = done && for_each(local, trials, count, false, search_locally, error) &&
-           share_merits(local, trials, count, error);
+    done = done && sp_trials_for_each(local, trials, count, false, search_locally, error) &&
+           sp_trials_share_merits(local, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);
     if (!keeps)
         done = sp_fail_memory(error);
@@ -372,8 +297,8 @@ bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count,
     for (size_t i = 0; done && i < count; i++)
         trials[i].better = keeps[i];
     free(keeps);
-    done = done && for_each(local, trials, count, true, take_over, error) &&
-           share_partials(local, trials, count, true, error);
+    done = done && sp_trials_for_each(local, trials, count, true, take_over, error) &&
+           sp_trials_share_partials(local, trials, count, true, error);
     for (size_t i = 0; i < count; i++) {
         sp_partial_free(&trials[i].start);
         sp_partial_free(&trials[i].refined);
@@ -404,5 +329,6 @@ static bool sharpen(const sp_local_search *local, sp_trial *trial, sp_error *err
 
 bool sp_sharpen(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    return for_each(local, trials, count, false, sharpen, error) && share_partials(local, trials, count, false, error);
+    return sp_trials_for_each(local, trials, count, false, sharpen, error) &&
+           sp_trials_share_partials(local, trials, count, false, error);
 }
