@@ -90,6 +90,15 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
     return !sp_refine_asked(&options->refine) || sp_least_squares_ready(error);
 }
 
+/* m³/s that max_water is short of what the least nozzle takes; 0 where one fits. */
+static double water_lacking(const sp_place_options *options, const sp_candidates *candidates)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        least = fmin(least, candidates->variants[k].flow);
+    return least <= options->max_water * (1 + SP_ROUNDING) ? 0 : least - options->max_water;
+}
+
 /* Mounting points, candidates, and what each point can reach on patches few enough. */
 static bool look_around(sp_placement *placement, sp_error *error)
 {
@@ -365,6 +374,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->objective = options->objective;
     proposal->interrupted = placement->deadline.interrupted;
+    proposal->water_lacking = water_lacking(placement->options, &placement->candidates);
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
     proposal->front = sp_front_by_water(&placement->front, &proposal->front_count, error);

@@ -88,7 +88,7 @@ typedef struct {
     const sp_mount *others; /* borrowed: of ports among them that are not to be used no nozzle gets the name */
     sp_refine refine;
     const sp_layout *kept; /* borrowed, may be NULL: the scene's own; its nozzles marked keep are in every proposal */
-    bool mend_kept; /* default true: what would mend the shadows of all of `kept` is looked for, too */
+    bool mend_kept;        /* default true: what would mend the shadows of all of `kept` is looked for, too */
     sp_run run;
 } sp_place_options;
 
@@ -184,6 +184,7 @@ typedef struct {
     double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
     bool reached;           /* the proposal covers asked_area within all limits */
     bool interrupted;       /* cancelled or out of time: the best so far */
+    double water_lacking;   /* m³/s, that max_water is short of what the least nozzle takes; 0 where one fits */
     size_t positions,
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;
@@ -205,6 +206,12 @@ typedef struct {
     size_t cut_count;
     char cut[SP_STAGES_CUT][SP_STAGE_NAME];
 } sp_proposal;
+
+/* How many mounting points each of the options' mounts gives, into [mount_count] of the caller's: `all`, and the
+ * `usable` ones, which are inside the cavity and clear of walls. False, with an error, for mounts of too many points
+ * and where memory runs out. */
+SP_API bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_options *options, size_t *all,
+                                  size_t *usable, sp_error *error);
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves, then brought to what ports and types can be set to: all that is reported is of such

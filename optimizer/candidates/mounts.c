@@ -270,6 +270,20 @@ static bool mount_sites(const sp_evaluator *evaluator, const sp_mount *mount, ui
     return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a mount of unknown kind %d", (int)mount->kind);
 }
 
+/* All mounts' sites, in their order, whether or not a nozzle may be there. */
+static bool list_sites(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
+{
+    *sites = (sp_sites){0};
+    for (size_t m = 0; m < options->mount_count; m++)
+        if (!mount_sites(evaluator, &options->mounts[m], (uint32_t)m, sites, error)) {
+            sp_sites_free(sites);
+            return false;
+        }
+    for (size_t i = 0; i < sites->count; i++)
+        sites->items[i].position = sp_setup_told(sp_evaluator_setup(evaluator), sites->items[i].position);
+    return true;
+}
+
 /* Keeps the sites that are allowed, in order. */
 static bool sift(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
 {
@@ -285,27 +299,40 @@ static bool sift(const sp_evaluator *evaluator, const sp_place_options *options,
         if (allowed[i])
             sites->items[kept++] = sites->items[i];
     free(allowed);
-    if (!kept)
-        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                "place: none of %zu mounting points is inside the cavity and %g m clear of surfaces", sites->count,
-                options->clearance);
     sites->count = kept;
-    return kept > 0;
+    return true;
 }
 
 bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
 {
-    *sites = (sp_sites){0};
-    bool done = true;
-    for (size_t m = 0; done && m < options->mount_count; m++)
-        done = mount_sites(evaluator, &options->mounts[m], (uint32_t)m, sites, error);
-    for (size_t i = 0; done && i < sites->count; i++)
-        sites->items[i].position = sp_setup_told(sp_evaluator_setup(evaluator), sites->items[i].position);
-    if (!done || !sift(evaluator, options, sites, error)) {
-        sp_sites_free(sites);
+    if (!list_sites(evaluator, options, sites, error))
         return false;
-    }
-    return true;
+    size_t all = sites->count;
+    bool done = sift(evaluator, options, sites, error);
+    if (done && !sites->count)
+        done = sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "place: none of %zu mounting points is inside the cavity and %g m clear of surfaces", all,
+                       options->clearance);
+    if (!done)
+        sp_sites_free(sites);
+    return done;
+}
+
+bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_options *options, size_t *all, size_t *usable,
+                           sp_error *error)
+{
+    sp_sites sites;
+    if (!list_sites(evaluator, options, &sites, error))
+        return false;
+    for (size_t m = 0; m < options->mount_count; m++)
+        all[m] = usable[m] = 0;
+    for (size_t i = 0; i < sites.count; i++)
+        all[sites.items[i].mount]++;
+    bool done = sift(evaluator, options, &sites, error);
+    for (size_t i = 0; done && i < sites.count; i++)
+        usable[sites.items[i].mount]++;
+    sp_sites_free(&sites);
+    return done;
 }
 
 void sp_sites_free(sp_sites *sites)

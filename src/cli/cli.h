@@ -166,6 +166,9 @@ int cli_with_scene(const cli_options *options, bool evaluates, cli_work *work);
 
 /* False, with an error, of a nozzle that is in a wall or outside, or in a port that it does not pass. */
 bool cli_admits(const cli_scene *opened, const sp_nozzle *nozzle, sp_error *error);
+/* idle_mounts.c: tells of each mount of the scene's on which no nozzle can stand. False where memory runs out. */
+typedef void cli_teller(void *user, const char *text);
+bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user, sp_error *error);
 /* A layout with its coverage, and the scene's mounts. */
 sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluator *evaluator, const sp_layout *layout,
                      const sp_coverage *coverage);
@@ -218,8 +221,8 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
                const sp_layout *layout, char **written, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
-/* summary.c: an object, which it takes, on standard output. False where memory ran out: what could not be written shows at the
- * end. */
+/* summary.c: an object, which it takes, on standard output. False where memory ran out: what could not be written shows
+ * at the end. */
 bool cli_print_object(json_t *object, int digits);
 /* The result as JSON or as a table on standard output. */
 bool cli_print(const cli_options *options, const sp_result *result, sp_error *error);

@@ -85,19 +85,25 @@ static void say_what_is_missing(const sp_proposal *proposal)
 {
     const sp_coverage *coverage = proposal->coverage;
     double percent = 100 / coverage->area;
-    if (!(proposal->target_area > 0))
+    bool kept_reach = proposal->target_area > 0 && coverage->covered_area >= proposal->asked_area;
+    if (proposal->water_lacking > 0 && !kept_reach)
+        fprintf(stderr,
+                "sprayplan: max_water allows no nozzle at all: the least of those that are allowed takes %.3g L/min "
+                "more\n",
+                6e4 * proposal->water_lacking);
+    else if (!(proposal->target_area > 0))
         fprintf(stderr,
                 "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
                 "criteria\n");
-    else if (coverage->covered_area >= proposal->asked_area)
+    else if (kept_reach)
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");
     else if (proposal->attainable_area < proposal->asked_area)
         fprintf(stderr,
-                "sprayplan: %.4g %% of the surface was asked for, of which no more than %.1f %% is attainable: the "
+                "sprayplan: %.4g %% of the surface was asked for, of which no more than %.2f %% is attainable: the "
                 "proposal covers %.1f %%, %.1f %% of what is attainable\n",
-                percent * proposal->asked_area, percent * proposal->attainable_area, 100 * coverage->fraction,
-                100 * coverage->covered_area / proposal->attainable_area);
+                percent * proposal->asked_area, ceil(100 * percent * proposal->attainable_area - 1e-7) / 100,
+                100 * coverage->fraction, 100 * coverage->covered_area / proposal->attainable_area);
     else
         fprintf(stderr, "sprayplan: the proposal covers %.1f %% of the surface (%.3f m2), not the %.4g %% asked for\n",
                 100 * coverage->fraction, coverage->covered_area, percent * proposal->asked_area);
@@ -302,6 +308,13 @@ static bool warn_of_own(const cli_scene *opened, const sp_layout *own, sp_error 
     return true;
 }
 
+static void say_idle(void *user, const char *text)
+{
+    (void)user;
+    cli_progress_end();
+    fprintf(stderr, "sprayplan: %s\n", text);
+}
+
 /* Asked before the minutes that a search may take. */
 static bool can_write(const cli_options *options, const cli_scene *opened, sp_error *error)
 {
@@ -323,7 +336,8 @@ static int conclude(const cli_options *options, const cli_scene *opened, cli_clo
     cli_progress_stage(options, "report");
     bool good = count_manual_again(opened, found, error) && follow_liquid(opened, found, error) &&
                 measure_errors(opened, found, error) &&
-                (options->quiet || warn_of_own(opened, sp_scene_layout(opened->scene), error));
+                (options->quiet || (warn_of_own(opened, sp_scene_layout(opened->scene), error) &&
+                                    cli_tell_idle_mounts(opened, say_idle, NULL, error)));
     return good ? report(options, opened, found, clock, error) : cli_fail_in(opened, error);
 }
 

@@ -214,7 +214,7 @@ static void print_certificate(const sp_proposal *proposal)
         certificate->candidates, certificate->texels, ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10,
         floor(6e5 * certificate->water_bound + 1e-6) / 10, proposal->costly ? " of water and cost of mounts" : "",
         proposal->costly ? "For the proposal's price" : "With the proposal's water",
-        ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, 100 * certificate->gap);
+        ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, ceil(1e3 * certificate->gap - 1e-9) / 10);
     if (certificate->every_aim.computed)
         printf(
             "Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "

@@ -3,6 +3,7 @@
 #include "mesh/distance.h"
 
 #define TOLERANCE 4e-4      /* of the geometry's diagonal */
+#define LEAN_SLACK 0.01     /* rad, by which an axis may be written too slanted */
 #define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 double sp_mount_tolerance(const sp_setup *setup)
@@ -42,9 +43,26 @@ bool sp_port_holds(const sp_mount *mount, sp_vec3 point, double tolerance)
                      sp_along(mount->position, mount->depth_to, mount->axis), point, tolerance);
 }
 
+/* The mount's triangle that is nearest to a point. */
+static uint32_t nearest_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point)
+{
+    uint32_t nearest = SP_NONE;
+    double least = INFINITY;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (!sp_mount_has(mesh, mount, t))
+            continue;
+        double distance = sp_distance(point, sp_triangle_nearest(mesh, t, point));
+        if (distance < least) {
+            nearest = t;
+            least = distance;
+        }
+    }
+    return nearest;
+}
+
 static bool surface_holds(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point, double tolerance)
 {
-    uint32_t triangle = sp_mount_triangle(mesh, mount, point);
+    uint32_t triangle = nearest_triangle(mesh, mount, point);
     return triangle != SP_NONE &&
            sp_distance(point, sp_triangle_nearest(mesh, triangle, point)) <= sp_mount_standoff(mount) + tolerance;
 }
@@ -81,20 +99,32 @@ double sp_mount_standoff(const sp_mount *mount)
     return fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
 }
 
-uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point)
+/* How far (m) a nozzle is from where one welded to this triangle stands; INFINITY where its axis leans too far from
+ * the wall's normal. */
+static double off_its_stand(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle, const sp_nozzle *nozzle)
 {
-    uint32_t nearest = SP_NONE;
+    sp_vec3 foot = sp_triangle_nearest(mesh, triangle, nozzle->position), out = sp_triangle_normal(mesh, triangle);
+    if (sp_dot(out, sp_sub(nozzle->position, foot)) < 0)
+        out = sp_scale(out, -1);
+    double lean = acos(fmin(1, fmax(-1, sp_dot(out, nozzle->axis))));
+    return lean > mount->tilt + LEAN_SLACK
+               ? INFINITY
+               : sp_distance(nozzle->position, sp_along(foot, sp_mount_standoff(mount), out));
+}
+
+uint32_t sp_mount_weld(const sp_setup *setup, const sp_mount *mount, const sp_nozzle *nozzle)
+{
+    const sp_mesh *mesh = setup->mesh;
+    uint32_t best = SP_NONE;
     double least = INFINITY;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (!sp_mount_has(mesh, mount, t))
-            continue;
-        double distance = sp_distance(point, sp_triangle_nearest(mesh, t, point));
-        if (distance < least) {
-            nearest = t;
-            least = distance;
+        double off = sp_mount_has(mesh, mount, t) ? off_its_stand(mesh, mount, t, nozzle) : INFINITY;
+        if (off < least) {
+            best = t;
+            least = off;
         }
     }
-    return nearest;
+    return least <= sp_mount_tolerance(setup) ? best : nearest_triangle(mesh, mount, nozzle->position);
 }
 
 size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, sp_vec3 position)

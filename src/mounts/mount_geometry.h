@@ -9,10 +9,11 @@ double sp_mount_tolerance(const sp_setup *setup);
 /* A port's lance reaches the point, or all but the tolerance. */
 bool sp_port_holds(const sp_mount *mount, sp_vec3 point, double tolerance);
 
-/* A surface mount's: whether a triangle belongs to it, how far nozzles stand off (m), and of its triangles the one
- * nearest to a point, SP_NONE where there is none. */
+/* A surface mount's: whether a triangle belongs to it, how far nozzles stand off (m), and the triangle that a nozzle of
+ * the mount is welded to: the one that it stands off as the mount asks for, with its axis within the mount's tilt, or
+ * else the nearest. SP_NONE where the mount has none. */
 bool sp_mount_has(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle);
 double sp_mount_standoff(const sp_mount *mount);
-uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point);
+uint32_t sp_mount_weld(const sp_setup *setup, const sp_mount *mount, const sp_nozzle *nozzle);
 
 #endif

@@ -43,7 +43,7 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
     sp_text_add(
         text,
         "&nbsp;L/min%s. Poses between candidates are not covered.</p>\n<p>That share of the surface to be cleaned, "
-        "attainable or not, is what the proposal itself reaches on these texels, with ",
+        "attainable or not, rounded up, is what the proposal itself reaches on these texels, with ",
         proposal->costly ? of_both : "");
     sp_markup_decimals(text, 6e4 * proposal->outlay, 1);
     sp_text_add(text, "&nbsp;L/min%s. %s no layout reaches more than ", proposal->costly ? of_both : "",

@@ -62,7 +62,7 @@ static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposa
     sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for within the limits on nozzles, water and ports; ");
     if (proposed->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0)) {
         sp_text_add(text, "no more than ");
-        sp_markup_decimals(text, percent * proposed->attainable_area, 1);
+        sp_markup_decimals(text, ceil(100 * percent * proposed->attainable_area - 1e-7) / 100, 2);
         sp_text_add(text, "&nbsp;%% are attainable, so that ");
         sp_markup_decimals(text, percent * proposal->target_area, 1);
         sp_text_add(text, "&nbsp;%% were aimed at; ");
@@ -130,11 +130,18 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
         add_error(proposed, accuracy, text);
     if (proposal->reached)
         return;
-    if (!(proposal->target_area > 0))
+    bool kept_reach = proposal->target_area > 0 && proposed->covered_area >= proposal->asked_area;
+    if (proposal->water_lacking > 0 && !kept_reach) {
+        sp_text_add(text,
+                    "<p class=\"warning\"><strong>No nozzle is allowed.</strong> max_water is less than any nozzle "
+                    "takes, by ");
+        sp_markup_significant(text, 6e4 * proposal->water_lacking, 3);
+        sp_text_add(text, "&nbsp;L/min.</p>\n");
+    } else if (!(proposal->target_area > 0))
         sp_text_add(text,
                     "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
                     "mounting point that takes it, covers anything by the criteria.</p>\n");
-    else if (proposed->covered_area >= proposal->asked_area)
+    else if (kept_reach)
         sp_text_add(
             text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
                   "water, than was allowed.</p>\n");

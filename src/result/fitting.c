@@ -56,7 +56,7 @@ static void add_fitting(sp_fitting_row *row, const sp_setup *setup)
         row->depth_mm = rounded(sp_dot(sp_sub(tip, mount->position), mount->axis) * MM, 1);
         row->at = place_at(setup, mount->position);
     } else if (mount && mount->kind == SP_MOUNT_SURFACE) {
-        uint32_t triangle = sp_mount_triangle(setup->mesh, mount, tip);
+        uint32_t triangle = sp_mount_weld(setup, mount, row->nozzle);
         sp_vec3 weld = sp_triangle_nearest(setup->mesh, triangle, tip);
         row->fitting = setup->mesh->parts[setup->mesh->part[triangle]].name;
         row->standoff_mm = rounded(sp_distance(weld, tip) * MM, 1);

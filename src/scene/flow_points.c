@@ -74,8 +74,8 @@ static bool read_points(const sp_fields *in, sp_nozzle_type *type)
                                "found a list, expected one of 2 to %d flows and one of as many pressures", POINTS_MOST);
     if (exponent)
         return sp_read_message(reader, exponent, "exponent",
-                               "found beside several points, which tell it; expected "
-                               "this key beside one alone");
+                               "found beside several flows, from which it follows; "
+                               "expected it beside a single flow only");
     if (!read_rising(in, "flow", flow) || !read_rising(in, "at", at))
         return false;
     fit(flow, at, flows->count, type);

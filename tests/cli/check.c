@@ -57,6 +57,20 @@ static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **st
     json_decref(object);
 }
 
+/* Of a port above the ceiling, and not of one in it. */
+static void check_tells_of_mounts_that_take_no_nozzle(void **state)
+{
+    (void)state;
+    write_file("mounted.yaml", "geometry:\n  - file: room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\n"
+                               "catalogue: catalogue.yaml\nplace:\n  pressure: 2 bar\n  mounts:\n"
+                               "    - port: {name: above, position: [0.5 m, 0.5 m, 2 m], axis: [0, 0, -1]}\n"
+                               "    - port: {name: within, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -1]}\n");
+    json_t *object = expect_json("check mounted.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), 1);
+    assert_non_null(strstr(json_string_value(json_array_get(warnings, 0)), "'above'"));
+    json_decref(object);
+}
+
 static void check_reports_the_cavity(void **state)
 {
     (void)state;
@@ -102,6 +116,7 @@ int main(void)
         cmocka_unit_test(check_measures_the_room),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
+        cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(check_says_where_liquid_stands),
     };

@@ -4,6 +4,8 @@
 #include "candidates/candidates.h"
 #include "mesh/distance.h"
 
+#include <sprayplan/fitting.h>
+
 /* A room of 2 m with a closed block of 0.4 m in its middle. */
 static void open_block_room(room *r)
 {
@@ -390,6 +392,65 @@ static void nothing_left_is_an_error(void **state)
     room_close(&r);
 }
 
+static void unusable_points_are_counted(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    const sp_mount mounts[] = {{.kind = SP_MOUNT_PORT, .position = sp_v(5, 0, 1), .axis = sp_v(0, 0, -1)},
+                               {.kind = SP_MOUNT_LINE,
+                                .axis = sp_v(0, 0, -1),
+                                .from = sp_v(0, 0.5, 1),
+                                .to = sp_v(2, 0.5, 1),
+                                .spacing = 0.5}};
+    sp_place_options options = room_options();
+    options.mounts = mounts;
+    options.mount_count = 2;
+    size_t all[2], usable[2];
+    sp_error error = {0};
+    assert_true(sp_place_count_points(r.evaluator, &options, all, usable, &error));
+    assert_int_equal(all[0], 1);
+    assert_int_equal(usable[0], 0);
+    assert_int_equal(all[1], 5);
+    assert_int_equal(usable[1], 2); /* the third lies in the wall */
+    room_close(&r);
+}
+
+/* Near a corner a nozzle is welded to the wall that it stands off as the mount asks for, and points away from, also
+ * where the other one is nearer; one that stands so off none to the nearest. */
+static void welded_to_its_own_wall(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    const sp_mount mount = {.kind = SP_MOUNT_SURFACE, .part = SP_NONE, .spacing = 0.5, .standoff = 0.1, .tilt = 1};
+    const sp_nozzle_type type = {.name = "jet", .pattern = SP_PATTERN_FULL_CONE, .angle = 1, .flow = 1e-4, .at = 1e5};
+    static const struct {
+        sp_vec3 position, axis;
+        double x, y, standoff; /* mm */
+    } nozzles[] = {{{-0.9, -0.97, 0.5}, {1, 0, 0}, -1000, -970, 100},
+                   {{-0.97, 0.9, 0.5}, {0, -1, 0}, -970, 1000, 100},
+                   {{-0.9, -0.97, 0.5}, {0, 1, 0}, -900, -1000, 30}};
+    for (size_t i = 0; i < 3; i++) {
+        sp_nozzle nozzle = {.name = "N",
+                            .type = &type,
+                            .position = nozzles[i].position,
+                            .axis = nozzles[i].axis,
+                            .angle = 1,
+                            .flow = 1e-4,
+                            .pressure = 1e5};
+        const sp_layout layout = {.count = 1, .nozzles = &nozzle};
+        sp_error error = {0};
+        sp_fitting_sheet *sheet = sp_fitting_sheet_create(&layout, &r.setup, &mount, 1, &error);
+        assert_non_null(sheet);
+        assert_true(fabs(sheet->rows[0].at.x_mm - nozzles[i].x) < 1e-9);
+        assert_true(fabs(sheet->rows[0].at.y_mm - nozzles[i].y) < 1e-9);
+        assert_true(fabs(sheet->rows[0].standoff_mm - nozzles[i].standoff) < 1e-9);
+        sp_fitting_sheet_destroy(sheet);
+    }
+    room_close(&r);
+}
+
 static void distance_to_a_triangle(void **state)
 {
     (void)state;
@@ -419,6 +480,8 @@ int main(void)
         cmocka_unit_test(small_parts_have_a_point),
         cmocka_unit_test(axes_fill_the_tilt),
         cmocka_unit_test(nothing_left_is_an_error),
+        cmocka_unit_test(unusable_points_are_counted),
+        cmocka_unit_test(welded_to_its_own_wall),
         cmocka_unit_test(distance_to_a_triangle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

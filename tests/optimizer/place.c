@@ -184,6 +184,7 @@ static void limits_hold(void **state)
     j.options.max_water = 23 * LITRES_PER_MINUTE;
     sp_proposal *proposal = job_place(&j);
     assert_false(proposal->reached);
+    assert_true(proposal->water_lacking == 0);
     assert_in_range(proposal->layout->count, 1, 3);
     sp_proposal_destroy(proposal);
 
@@ -193,6 +194,10 @@ static void limits_hold(void **state)
     assert_int_equal(proposal->layout->count, 0);
     assert_false(proposal->reached);
     assert_true(proposal->attainable_area == 0);
+    double least = INFINITY;
+    for (size_t i = 0; i < j.options.type_count; i++)
+        least = fmin(least, sp_type_flow(j.options.types[i], j.options.types[i]->flow, PRESSURE, &j.room.setup.liquid));
+    assert_true(fabs(proposal->water_lacking - (least - j.options.max_water)) < 1e-9 * least);
     sp_proposal_destroy(proposal);
     room_close(&j.room);
 }

@@ -59,7 +59,7 @@ static void slips_are_told(void **state)
         {"flow: [2 L/min, 4 L/min], at: 2 bar", "flow: found a list, expected one of 2 to 64 flows"},
         {"flow: 2 L/min, at: [2 bar, 3 bar]", "at: found a list, expected one of 2 to 64 flows"},
         {"flow: [2 L/min], at: [2 bar]", "flow: found a list, expected one of 2 to 64 flows"},
-        {"flow: [2 L/min, 3 L/min], at: [2 bar, 4 bar], exponent: 0.5", "exponent: found beside several points"},
+        {"flow: [2 L/min, 3 L/min], at: [2 bar, 4 bar], exponent: 0.5", "exponent: found beside several flows"},
         {"flow: [2 L/min, 2 L/min], at: [2 bar, 4 bar]", "flow: found '2 L/min', expected more than the one before it"},
         {"flow: [2 L/min, 3 L/min], at: [4 bar, 2 bar]", "at: found '2 bar', expected more than the one before it"},
         {"flow: [2 L/min, 9 L/min], at: [2 bar, 4 bar]", "flow: found to grow with the power 2.17 of `at`"},

@@ -45,7 +45,7 @@ void cli_flaws_tell(const sp_setup *setup, sp_mesh_diagnosis *mesh)
     }
 }
 
-void cli_flaws_print(const sp_mesh_diagnosis *mesh)
+bool cli_flaws_print(const sp_mesh_diagnosis *mesh)
 {
     bool any = false;
     for (size_t kind = 0; kind < KINDS; kind++) {
@@ -64,6 +64,7 @@ void cli_flaws_print(const sp_mesh_diagnosis *mesh)
                    flaw->place[i].x, flaw->place[i].y, flaw->place[i].z);
         printf("\n");
     }
+    return any;
 }
 
 void cli_flaws_print_change(const sp_mesh_diagnosis *before, const sp_mesh_diagnosis *after)

@@ -8,8 +8,8 @@
 
 /* Places in the coordinates of the scene's file. */
 void cli_flaws_tell(const sp_setup *setup, sp_mesh_diagnosis *mesh);
-/* Those that there are. */
-void cli_flaws_print(const sp_mesh_diagnosis *mesh);
+/* Those that there are; false where there are none. */
+bool cli_flaws_print(const sp_mesh_diagnosis *mesh);
 /* Those that there were or are, before and after something. */
 void cli_flaws_print_change(const sp_mesh_diagnosis *before, const sp_mesh_diagnosis *after);
 json_t *cli_flaws_json(const sp_mesh_diagnosis *mesh);

@@ -50,7 +50,7 @@ static void print_parts(const cli_findings *found)
     }
 }
 
-static void print_openings(const cli_findings *found)
+static bool print_openings(const cli_findings *found)
 {
     size_t count;
     const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
@@ -60,6 +60,7 @@ static void print_openings(const cli_findings *found)
         sp_vec3 p = cli_findings_told(found, openings[i].place);
         printf("[%10.4f, %10.4f, %10.4f] %12.4g %26.2g\n", p.x, p.y, p.z, openings[i].width, openings[i].share);
     }
+    return count > 0;
 }
 
 static void print_hollows(const cli_findings *found)
@@ -97,9 +98,9 @@ void cli_findings_print(const cli_findings *found, const char *output)
     print_parts(found);
     print_boxes(found);
     cli_cad_print_volumes(cli_findings_setup(found)->mesh, found->part_volume);
-    print_openings(found);
+    bool open = print_openings(found);
     print_hollows(found);
-    cli_flaws_print(&found->mesh);
+    bool flawed = cli_flaws_print(&found->mesh);
     cli_repair_print(&found->repair);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
@@ -116,5 +117,5 @@ void cli_findings_print(const cli_findings *found, const char *output)
     for (size_t i = 0; i < found->warning_count; i++)
         printf("warning: %s\n", found->warnings[i]);
     if (!found->warning_count)
-        printf("nothing wrong found\n");
+        printf("nothing wrong found%s\n", open || flawed ? " besides what is listed above" : "");
 }

@@ -141,6 +141,11 @@ static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
     return true;
 }
 
+static void warn_of_mount(void *user, const char *text)
+{
+    warn(user, "%s", text);
+}
+
 bool cli_findings_warn(cli_findings *found, sp_error *error)
 {
     warn_of_mesh(found);
@@ -150,5 +155,6 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     warn_of_sides(found);
     warn_of_openings(found);
     warn_of_hollows(found);
-    return warn_of_nozzles(found, error);
+    return warn_of_nozzles(found, error) && (!sp_scene_has_place(found->opened->scene) ||
+                                             cli_tell_idle_mounts(found->opened, warn_of_mount, found, error));
 }
