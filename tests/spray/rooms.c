@@ -522,6 +522,41 @@ static void what_lies_outside_changes_nothing(void **state)
     assert_true(fabs(opening.width - 0.1) < 0.05);
 }
 
+/* A room of 1 m of sheets, with a square hole of 0.1 m in its floor. */
+static shape box_with_a_hole(void)
+{
+    static const double sheets[][4] = {{0, 0, 1, 0.2}, {0, 0.2, 0.7, 0.1}, {0.8, 0.2, 0.2, 0.1}, {0, 0.3, 1, 0.7}};
+    shape s = shape_create();
+    shape_part(&s, "box");
+    for (size_t i = 0; i < 4; i++)
+        shape_sheet(&s, sp_v(sheets[i][0], sheets[i][1], 0), sp_v(sheets[i][2], 0, 0), sp_v(0, sheets[i][3], 0), 1);
+    shape_sheet(&s, sp_v(0, 0, 1), sp_v(1, 0, 0), sp_v(0, 1, 0), 1);
+    shape_sheet(&s, sp_v(0, 0, 0), sp_v(1, 0, 0), sp_v(0, 0, 1), 1);
+    shape_sheet(&s, sp_v(0, 1, 0), sp_v(1, 0, 0), sp_v(0, 0, 1), 1);
+    shape_sheet(&s, sp_v(0, 0, 0), sp_v(0, 1, 0), sp_v(0, 0, 1), 1);
+    shape_sheet(&s, sp_v(1, 0, 0), sp_v(0, 1, 0), sp_v(0, 0, 1), 1);
+    return s;
+}
+
+/* Most see it aslant. */
+static void a_hole_is_one_opening_where_it_is(void **state)
+{
+    (void)state;
+    sp_mesh *mesh;
+    sp_error error = {0};
+    shape s = box_with_a_hole();
+    sp_evaluator *evaluator = evaluator_of(&s, SP_CAVITY_POINT, sp_v(0.3, 0.6, 0.5), 0, 0.03, &mesh, &error);
+    assert_string_equal(error.message, "");
+    size_t count;
+    const sp_opening *opening = sp_evaluator_openings(evaluator, &count);
+    assert_int_equal(count, 1);
+    assert_true(sp_distance(opening->place, sp_v(0.75, 0.25, 0)) < 0.02);
+    assert_true(fabs(opening->place.z) < 1e-4);
+    assert_true(fabs(opening->width - 0.1) < 0.01);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 static void expect_refused(shape s, sp_vec3 point)
 {
     sp_mesh *mesh;
@@ -624,6 +659,7 @@ int main(void)
         cmocka_unit_test(sheets_and_lids),
         cmocka_unit_test(gaps_and_caps),
         cmocka_unit_test(caps_cut_what_is_drawn_twice),
+        cmocka_unit_test(a_hole_is_one_opening_where_it_is),
         cmocka_unit_test(what_lies_outside_changes_nothing),
         cmocka_unit_test(a_point_in_steel_is_refused),
         cmocka_unit_test(liquid_finds_holes),
