@@ -1,5 +1,5 @@
-/* Whether a layout may take one more nozzle: as many as are asked for, and what a mount holds. Two nozzles never share a
- * port; water is sp_affords' matter. */
+/* Whether a layout may take one more nozzle: as many as are asked for, and what a mount holds. Two nozzles never share
+ * a port; water is sp_affords' matter. */
 #ifndef OPTIMIZER_MOUNT_CAPACITY_H
 #define OPTIMIZER_MOUNT_CAPACITY_H
 

@@ -16,11 +16,11 @@ typedef struct {
     size_t cut_count;
 } sp_wet_arrays;
 
-/* Fills in *told, for sp_wet_arrays_free whatever the outcome. */
-bool sp_wet_arrays_create(const sp_wet *wet, size_t triangle_count, sp_wet_arrays *told, sp_error *error);
-void sp_wet_arrays_free(sp_wet_arrays *told);
+/* Fills in *arrays, for sp_wet_arrays_free whatever the outcome. */
+bool sp_wet_arrays_create(const sp_wet *wet, size_t triangle_count, sp_wet_arrays *arrays, sp_error *error);
+void sp_wet_arrays_free(sp_wet_arrays *arrays);
 /* For sp_evaluator_restore; of the mesh, which is borrowed. NULL on error, also for nodes that do not belong together.
  */
-sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_arrays *told, sp_error *error);
+sp_wet *sp_wet_restore(const sp_mesh *mesh, const sp_wet_arrays *arrays, sp_error *error);
 
 #endif

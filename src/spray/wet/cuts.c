@@ -6,7 +6,7 @@
  * whose order somebody has chosen, would make a tree as deep as there are lines. */
 #include "spray/wet/cuts.h"
 
-#include "mesh/grow.h"
+#include "spray/wet/growth.h"
 #include "spray/wet/meetings.h"
 #include "spray/wet/stretches.h"
 
@@ -25,16 +25,8 @@ typedef struct {
     sp_cuts *cuts;
     const sp_meetings *meetings;
     size_t cut_room, cell_room;
-    bool failed;  /* memory ran out, or numbers did */
-    bool crowded; /* numbers did */
+    sp_growth growth;
 } cutter;
-
-static bool has_room(cutter *cutter, void *array, size_t *capacity, size_t count, size_t size)
-{
-    cutter->crowded = cutter->crowded || count >= SP_MEETINGS_MOST;
-    cutter->failed = cutter->failed || cutter->crowded || !sp_grow(array, capacity, count + 1, size);
-    return !cutter->failed;
-}
 
 /* Below a cut `of`, or a triangle where that is SP_NONE: names a child rather than points at it, as the cuts move when
  * they grow. */
@@ -47,8 +39,9 @@ static uint32_t *child_of(sp_cuts *cuts, uint32_t triangle, uint32_t of, int whi
 static void split_cell(cutter *cutter, uint32_t triangle, uint32_t of, int which, const sp_cut *line)
 {
     sp_cuts *cuts = cutter->cuts;
-    if (!has_room(cutter, &cuts->cuts, &cutter->cut_room, cuts->cut_count, sizeof *cuts->cuts) ||
-        !has_room(cutter, &cuts->cell_triangle, &cutter->cell_room, cuts->cell_count, sizeof *cuts->cell_triangle))
+    if (!sp_growth_has_room(&cutter->growth, &cuts->cuts, &cutter->cut_room, cuts->cut_count, sizeof *cuts->cuts) ||
+        !sp_growth_has_room(&cutter->growth, &cuts->cell_triangle, &cutter->cell_room, cuts->cell_count,
+                            sizeof *cuts->cell_triangle))
         return;
     uint32_t *child = child_of(cuts, triangle, of, which), cell = *child & ~SP_CELL;
     *child = (uint32_t)cuts->cut_count;
@@ -63,7 +56,7 @@ static void cut_along(cutter *cutter, uint32_t triangle, uint32_t of, int which,
                       const sp_cut *line)
 {
     sp_cuts *cuts = cutter->cuts;
-    if (cutter->failed || !(sp_stretch_length(cutter->mesh, triangle, part) > cuts->contact))
+    if (cutter->growth.failed || !(sp_stretch_length(cutter->mesh, triangle, part) > cuts->contact))
         return;
     uint32_t node = *child_of(cuts, triangle, of, which);
     if (node & SP_CELL) {
@@ -112,7 +105,7 @@ typedef struct {
 static void halve_crowd(crowd *crowd, uint32_t of, int which, const sp_stretch *parts, size_t count, int uneven)
 {
     cutter *cutter = crowd->cutter;
-    if (cutter->failed || count <= CROWD || count > crowd->work)
+    if (cutter->growth.failed || count <= CROWD || count > crowd->work)
         return;
     crowd->work -= count;
     sp_cut line;
@@ -123,9 +116,9 @@ static void halve_crowd(crowd *crowd, uint32_t of, int which, const sp_stretch *
         return;
     split_cell(cutter, crowd->triangle, of, which, &line);
     sp_stretch *below = malloc(fuller * sizeof *below + 1);
-    cutter->failed = cutter->failed || !below;
+    cutter->growth.failed = cutter->growth.failed || !below;
     uint32_t node = (uint32_t)cutter->cuts->cut_count - 1;
-    for (int side = 0; side < 2 && !cutter->failed; side++) {
+    for (int side = 0; side < 2 && !cutter->growth.failed; side++) {
         size_t left = 0;
         for (size_t i = 0; i < count; i++) {
             sp_stretch part = parts[i];
@@ -148,15 +141,15 @@ static void cut_triangle(cutter *cutter, const sp_meeting_line *meetings, size_t
         sp_stretch *parts = malloc(count * sizeof *parts);
         crowd crowd = {cutter, triangle, CROWD_WORK * count, malloc(count * sizeof *crowd.places)};
         size_t left = 0;
-        cutter->failed = !parts || !crowd.places;
-        for (size_t i = 0; i < count && !cutter->failed; i++)
+        cutter->growth.failed = !parts || !crowd.places;
+        for (size_t i = 0; i < count && !cutter->growth.failed; i++)
             left += clip_meeting(cutter, &meetings[i], &line, &parts[left]) &&
                     sp_stretch_length(cutter->mesh, triangle, &parts[left]) > cutter->cuts->contact;
         halve_crowd(&crowd, SP_NONE, 0, parts, left, 0);
         free(parts);
         free(crowd.places);
     }
-    for (size_t i = 0; i < count && !cutter->failed; i++)
+    for (size_t i = 0; i < count && !cutter->growth.failed; i++)
         if (clip_meeting(cutter, &meetings[i], &line, &whole))
             cut_along(cutter, triangle, SP_NONE, 0, &whole, &line);
 }
@@ -164,7 +157,7 @@ static void cut_triangle(cutter *cutter, const sp_meeting_line *meetings, size_t
 static void cut_triangles(cutter *cutter)
 {
     const sp_meetings *meetings = cutter->meetings;
-    for (size_t i = 0, end; i < meetings->count && !cutter->failed; i = end) {
+    for (size_t i = 0, end; i < meetings->count && !cutter->growth.failed; i = end) {
         for (end = i + 1; end < meetings->count; end++)
             if (meetings->items[end].triangle != meetings->items[i].triangle)
                 break;
@@ -179,8 +172,8 @@ static void keep_coverings(cutter *cutter)
     size_t triangles = cutter->mesh->triangle_count;
     cuts->cover_start = calloc(triangles + 2, sizeof *cuts->cover_start);
     cuts->covers = malloc((meetings->covering_count + 1) * sizeof *cuts->covers);
-    cutter->failed = cutter->failed || !cuts->cover_start || !cuts->covers;
-    if (cutter->failed)
+    cutter->growth.failed = cutter->growth.failed || !cuts->cover_start || !cuts->covers;
+    if (cutter->growth.failed)
         return;
     for (size_t i = 0; i < meetings->covering_count; i++) {
         cuts->cover_start[meetings->coverings[i].triangle + 1]++;
@@ -194,7 +187,8 @@ static void keep_coverings(cutter *cutter)
 static void begin_cell(cutter *cutter, uint32_t triangle)
 {
     sp_cuts *cuts = cutter->cuts;
-    if (!has_room(cutter, &cuts->cell_triangle, &cutter->cell_room, cuts->cell_count, sizeof *cuts->cell_triangle))
+    if (!sp_growth_has_room(&cutter->growth, &cuts->cell_triangle, &cutter->cell_room, cuts->cell_count,
+                            sizeof *cuts->cell_triangle))
         return;
     cuts->root[triangle] = (uint32_t)cuts->cell_count | SP_CELL;
     cuts->cell_triangle[cuts->cell_count++] = triangle;
@@ -208,14 +202,14 @@ static void begin_cells(cutter *cutter, bool *touched)
     size_t triangles = cutter->mesh->triangle_count;
     cuts->root = malloc((triangles + 1) * sizeof *cuts->root);
     if (!cuts->root) {
-        cutter->failed = true;
+        cutter->growth.failed = true;
         return;
     }
     for (size_t i = 0; i < cutter->meetings->count; i++)
         touched[cutter->meetings->items[i].triangle] = true;
     for (size_t i = 0; i < cutter->meetings->covering_count; i++)
         touched[cutter->meetings->coverings[i].triangle] = true;
-    for (uint32_t t = 0; t < triangles && !cutter->failed; t++) {
+    for (uint32_t t = 0; t < triangles && !cutter->growth.failed; t++) {
         cuts->root[t] = SP_NONE;
         if (touched[t] && !cutter->meetings->copies[t])
             begin_cell(cutter, t);
@@ -258,7 +252,7 @@ static void halve_below(const halving *halving, uint32_t of, int which, const sp
 {
     cutter *cutter = halving->cutter;
     sp_cuts *cuts = cutter->cuts;
-    if (cutter->failed || piece->count < 3 || piece->count > SP_PIECE_POINTS - 2)
+    if (cutter->growth.failed || piece->count < 3 || piece->count > SP_PIECE_POINTS - 2)
         return;
     uint32_t node = *child_of(cuts, halving->triangle, of, which);
     if (node & SP_CELL) {
@@ -266,7 +260,7 @@ static void halve_below(const halving *halving, uint32_t of, int which, const sp
         if (!middle_cut(halving, piece, &cut))
             return;
         split_cell(cutter, halving->triangle, of, which, &cut);
-        if (cutter->failed)
+        if (cutter->growth.failed)
             return;
         node = (uint32_t)cuts->cut_count - 1;
     }
@@ -280,7 +274,7 @@ static void halve_below(const halving *halving, uint32_t of, int which, const sp
 static void halve_long_faces(cutter *cutter, double longest)
 {
     const sp_mesh *mesh = cutter->mesh;
-    for (uint32_t t = 0; t < mesh->triangle_count && !cutter->failed; t++) {
+    for (uint32_t t = 0; t < mesh->triangle_count && !cutter->growth.failed; t++) {
         const sp_triangle_piece whole = {.count = 3, .at = {{0, 0}, {1, 0}, {0, 1}}};
         halving halving = {cutter, t, longest};
         sp_cut cut;
@@ -298,14 +292,14 @@ static void halve_long_faces(cutter *cutter, double longest)
 static void cut_mesh(cutter *cutter)
 {
     bool *touched = calloc(cutter->mesh->triangle_count + 1, sizeof *touched);
-    cutter->failed = !touched;
-    if (!cutter->failed)
+    cutter->growth.failed = !touched;
+    if (!cutter->growth.failed)
         begin_cells(cutter, touched);
     free(touched);
-    if (!cutter->failed)
+    if (!cutter->growth.failed)
         cut_triangles(cutter);
     halve_long_faces(cutter, LONGEST / SP_CONTACT * cutter->cuts->contact);
-    if (!cutter->failed)
+    if (!cutter->growth.failed)
         keep_coverings(cutter);
 }
 
@@ -318,12 +312,12 @@ bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shell
     if (done)
         cut_mesh(&cutter);
     sp_meetings_free(&meetings);
-    if (done && !cutter.failed)
+    if (done && !cutter.growth.failed)
         return true;
     sp_cuts_destroy(cuts);
-    if (cutter.crowded)
+    if (cutter.growth.crowded)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: its triangles are cut into more than %d cells",
-                       SP_MEETINGS_MOST);
+                       SP_GROWTH_MOST);
     return done && sp_fail_memory(error);
 }
 

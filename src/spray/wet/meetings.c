@@ -1,7 +1,7 @@
 #include "spray/wet/meetings.h"
 
-#include "mesh/grow.h"
 #include "nozzle/scramble.h"
+#include "spray/wet/growth.h"
 #include "spray/wet/pairs.h"
 
 #include <stdlib.h>
@@ -10,16 +10,8 @@ typedef struct {
     const sp_mesh *mesh;
     double contact; /* m */
     sp_meetings *to;
-    bool failed;  /* memory ran out, or numbers did */
-    bool crowded; /* numbers did */
+    sp_growth growth;
 } finder;
-
-static bool has_room(finder *finder, void *array, size_t *capacity, size_t count, size_t size)
-{
-    finder->crowded = finder->crowded || count >= SP_MEETINGS_MOST;
-    finder->failed = finder->failed || finder->crowded || !sp_grow(array, capacity, count + 1, size);
-    return !finder->failed;
-}
 
 static uint32_t shuffle(uint64_t index)
 {
@@ -29,7 +21,7 @@ static uint32_t shuffle(uint64_t index)
 static void add_meeting(finder *finder, uint32_t triangle, sp_vec3 p, sp_vec3 q)
 {
     sp_meetings *to = finder->to;
-    if (has_room(finder, &to->items, &to->capacity, to->count, sizeof *to->items)) {
+    if (sp_growth_has_room(&finder->growth, &to->items, &to->capacity, to->count, sizeof *to->items)) {
         to->items[to->count] = (sp_meeting_line){triangle, shuffle(to->count), p, q};
         to->count++;
     }
@@ -38,7 +30,8 @@ static void add_meeting(finder *finder, uint32_t triangle, sp_vec3 p, sp_vec3 q)
 static void add_covering(finder *finder, uint32_t triangle, uint32_t cover)
 {
     sp_meetings *to = finder->to;
-    if (has_room(finder, &to->coverings, &to->covering_capacity, to->covering_count, sizeof *to->coverings))
+    if (sp_growth_has_room(&finder->growth, &to->coverings, &to->covering_capacity, to->covering_count,
+                           sizeof *to->coverings))
         to->coverings[to->covering_count++] = (sp_covering){triangle, cover};
 }
 
@@ -171,15 +164,15 @@ static bool find(finder *finder, const sp_setup *setup, const sp_pair *pairs, si
         return false;
     for (size_t i = 0; i < pair_count; i++)
         to->copies[pairs[i].b] = to->copies[pairs[i].b] || pairs[i].copy;
-    for (size_t i = 0; i < setup->cap_count && !finder->failed; i++)
+    for (size_t i = 0; i < setup->cap_count && !finder->growth.failed; i++)
         meet_cap(finder, &setup->caps[i]);
-    for (size_t i = 0; i < pair_count && !finder->failed; i++)
+    for (size_t i = 0; i < pair_count && !finder->growth.failed; i++)
         meet_pair(finder, pairs[i]);
     if (to->count)
         qsort(to->items, to->count, sizeof *to->items, by_order);
     if (to->covering_count)
         qsort(to->coverings, to->covering_count, sizeof *to->coverings, by_cover);
-    return !finder->failed;
+    return !finder->growth.failed;
 }
 
 bool sp_meetings_find(const sp_setup *setup, const sp_shells *shells, double contact, sp_meetings *meetings,
@@ -193,9 +186,9 @@ bool sp_meetings_find(const sp_setup *setup, const sp_shells *shells, double con
     finder finder = {.mesh = setup->mesh, .contact = contact, .to = meetings};
     bool done = find(&finder, setup, pairs, pair_count);
     free(pairs);
-    if (finder.crowded)
+    if (finder.growth.crowded)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "geometry: its triangles meet or lie on each other more than %d times", SP_MEETINGS_MOST);
+                       "geometry: its triangles meet or lie on each other more than %d times", SP_GROWTH_MOST);
     return done || sp_fail_memory(error);
 }
 

@@ -24,11 +24,9 @@ typedef struct {
     bool *copies; /* [triangles], which lie all over another; these have no meetings with caps */
 } sp_meetings;
 
-enum { SP_MEETINGS_MOST = 1 << 30 };
-
 /* Of the setup's mesh, as far as `contact` (m) tells: what is nearer than this touches. Fills in *meetings, for
  * sp_meetings_free whatever the outcome. Fails where memory runs out, or with SP_ERROR_INPUT on more than
- * SP_MEETINGS_MOST. */
+ * SP_GROWTH_MOST. */
 bool sp_meetings_find(const sp_setup *setup, const sp_shells *shells, double contact, sp_meetings *meetings,
                       sp_error *error);
 void sp_meetings_free(sp_meetings *meetings);

@@ -88,8 +88,8 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_acceleration 
     for (int axis = 0; axis < 3; axis++)
         p->farthest =
             sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
-    /* Where it is again as deep as the box reaches, it has gone at most 2 across √(fall² + 4 acceleration farthest) /
-     * acceleration. */
+    /* Where it is again as deep as the box reaches, it has gone at most
+     * 2 across √(fall² + 4 acceleration farthest) / acceleration. */
     double strength = 0x1p-43 * p->acceleration * p->farthest;
     if (p->across < 1e-280 ||
         p->across * (p->fall * p->fall + 4 * p->acceleration * p->farthest) <= strength * strength) {
@@ -195,10 +195,10 @@ static bool offer(const segment *s, double share, sp_ray_search *search)
     return true;
 }
 
-/* From an end above the flight to one below it. With μ the share of the way, A and B what they are above and below, and
- * k = acceleration/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight, and
- * crosses it at 2 A / (A + B + k + √(slope²)), the slope there being √((k - A)² + B² + 2 B (k + A)): sums of what is
- * not negative. */
+/* From an end above the flight to one below it. With μ the share of the way, A and B what they are above and below,
+ * and k = acceleration/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight.
+ * It crosses it at 2 A / (A + B + k + √(slope²)), with the slope √((k - A)² + B² + 2 B (k + A)) there: sums of what
+ * is not negative. */
 static void cross_once(const segment *s, int upper, sp_ray_search *search)
 {
     const crossing *a = &s->ends[upper], *b = &s->ends[1 - upper];
