@@ -1,20 +1,45 @@
 #include "refine/move.h"
 
-/* Where a nozzle moved to `position` would be mounted; false where it must not be there. */
-static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
+#define PULLS 4    /* tries to bring a move within its limit */
+#define PULL 0.995 /* of the limit, of each */
+
+/* Along the surface, no farther than refinement may move a nozzle: moves are asked for in two directions, each within
+ * that, and what both come to may be more, as may the way round a bend. */
+static bool move_along_surface(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
 {
     const sp_place_options *options = search->options;
     const sp_mount *mount = &options->mounts[placed->site.mount];
-    *site = placed->site;
-    site->position = sp_setup_told(sp_evaluator_setup(search->coarse), position);
-    if (mount->kind == SP_MOUNT_SURFACE) {
-        double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
+    double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
+    sp_vec3 from = placed->origin.position;
+    for (int i = 0; i < PULLS; i++) {
         *site = placed->site;
-        if (!sp_site_project(search->coarse, options, site, position) ||
-            sp_distance(site->position, placed->origin.position) > limit)
+        if (!sp_site_project(search->coarse, options, site, position))
             return false;
+        double away = sp_distance(site->position, from);
+        if (away <= limit)
+            return true;
+        position = sp_along(from, PULL * limit / away, sp_sub(site->position, from));
     }
-    return sp_site_allowed(search->coarse, options, site);
+    return false;
+}
+
+/* Puts *site where a nozzle moved to `position` would be mounted; false, and *site as it was, where it must not be
+ * there. */
+static bool move_site(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
+{
+    const sp_place_options *options = search->options;
+    const sp_mount *mount = &options->mounts[placed->site.mount];
+    sp_site there = placed->site;
+    if (mount->kind == SP_MOUNT_SURFACE) {
+        if (!move_along_surface(search, placed, position, &there))
+            return false;
+    } else {
+        there.position = sp_setup_told(sp_evaluator_setup(search->coarse), position);
+    }
+    if (!sp_site_allowed(search->coarse, options, &there))
+        return false;
+    *site = there;
+    return true;
 }
 
 void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_pose_parameters *parameters,
@@ -25,7 +50,7 @@ void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_pose_pa
         return;
     sp_nozzle nozzle = sp_pose_parameters_nozzle(parameters, values);
     if (sp_distance(nozzle.position, placed->nozzle.position) > 0 &&
-        moved_site(search, placed, nozzle.position, &site)) {
+        move_site(search, placed, nozzle.position, &site)) {
         sp_nozzle there = sp_pose_parameters_nozzle_at(parameters, values, &site);
         double turn = sp_dot(there.axis, placed->origin.axis);
         /* a curved surface may turn the axis more than refinement is allowed to */
