@@ -25,6 +25,7 @@
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
 #define FIRST_HURRIED 0.93 /* of the target, for a first layout of which little more than the poses is wanted */
+#define FIRST_SHARE 0.5    /* of the time for the search, for the refining of a proposal before others are looked for */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
@@ -186,21 +187,39 @@ static bool is_sound(const sp_placement *placement, sp_error *error)
            sp_footprints_sound(placement->search.footprints, error);
 }
 
-/* At leisure all is found on the candidates before anything is refined. In a hurry the proposal comes first: the first
- * layout stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
- */
+static double search_share(const sp_place_options *options)
+{
+    return options->prove ? SEARCH_PROVING : sp_run_hurries(&options->run) ? SEARCH_HURRIED : SEARCH;
+}
+
+/* A proposal next to the first layout, before better ones and the front are looked for; the first layout stands for the
+ * best of the candidates, and with its first nozzles for what less water can do. */
+static bool refine_first(sp_placement *placement, const sp_partial *first, sp_proposal *proposal, sp_error *error)
+{
+    return write_greedy(placement, proposal, error) && is_sound(placement, error) &&
+           sp_find_steps(&placement->search, first, &placement->deadline, &placement->front, error) &&
+           sp_deadline_stage(&placement->deadline, "greedy", error) &&
+           sp_refine_first(&placement->search, &placement->pool, &placement->deadline, &placement->front, error) &&
+           sp_deadline_stage(&placement->deadline, "refine", error);
+}
+
+/* At leisure all is found on the candidates before anything is refined. In a hurry the proposal comes first, and where
+ * the time may be short for all that it has a share of it, so that there is something by then. */
 static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     sp_search *search = &placement->search;
+    const sp_run *run = &placement->options->run;
     sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
-    bool hurried = sp_run_hurries(&placement->options->run) && sp_refine_asked(&placement->options->refine);
+    bool refines = sp_refine_asked(&placement->options->refine), short_of = sp_run_hurries(run);
+    bool hurried = refines && (short_of || sp_deadline_presses(deadline));
     sp_partial first;
     if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
-    bool done = !hurried || (write_greedy(placement, proposal, error) && is_sound(placement, error) &&
-                             sp_refine_first(search, &placement->pool, deadline, front, error) &&
-                             sp_deadline_stage(deadline, "refine", error));
+    if (!short_of)
+        sp_deadline_lend(deadline, FIRST_SHARE);
+    bool done = !hurried || refine_first(placement, &first, proposal, error);
+    sp_deadline_allow(deadline, search_share(placement->options));
     done = done && sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
            (hurried || write_greedy(placement, proposal, error));
     sp_partial_free(&first);
@@ -385,11 +404,6 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     memcpy(proposal->cut, placement->deadline.cut, sizeof proposal->cut);
     placement->deadline.stages = NULL;
     return proposal->front && proposal->by_number;
-}
-
-static double search_share(const sp_place_options *options)
-{
-    return options->prove ? SEARCH_PROVING : sp_run_hurries(&options->run) ? SEARCH_HURRIED : SEARCH;
 }
 
 /* What all ranks decide alike has to be the same on all: so many threads as every one has, and the shortest time. Where

@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEISURE 100.0 /* s of time limit, added up over the threads of all ranks: with less a placement hurries */
+#define LEISURE 160.0 /* s of time limit, added up over the threads of all ranks: with less a placement hurries */
+#define PLENTY 90.0  /* times what goes before the first layout: more than the search takes at leisure */
 
 sp_deadline sp_deadline_start(const sp_run *run)
 {
@@ -55,6 +56,16 @@ double sp_deadline_elapsed(sp_deadline *deadline)
 void sp_deadline_allow(sp_deadline *deadline, double share)
 {
     deadline->share = share;
+    deadline->lent = false;
+}
+
+void sp_deadline_lend(sp_deadline *deadline, double share)
+{
+    double limit = deadline->run.time_limit, left = sp_deadline_left(deadline);
+    if (!(limit > 0))
+        return;
+    deadline->share -= (1 - share) * fmax(0, left) / limit;
+    deadline->lent = true;
 }
 
 double sp_deadline_left(sp_deadline *deadline)
@@ -96,7 +107,7 @@ static bool decide(sp_deadline *deadline, const char *stage, double elapsed, boo
     double limit = deadline->run.time_limit;
     deadline->over = limit > 0 && elapsed > deadline->share * limit;
     bool on = !deadline->cancelled && !deadline->over;
-    if (!on && loses) {
+    if (!on && loses && !(deadline->lent && !deadline->cancelled)) {
         deadline->interrupted = true;
         note_cut(deadline, stage);
     }
@@ -156,6 +167,12 @@ bool sp_deadline_stage(sp_deadline *deadline, const char *name, sp_error *error)
 bool sp_run_hurries(const sp_run *run)
 {
     return run->time_limit > 0 && run->time_limit * sp_threads(run) * (double)sp_ranks_count(run->ranks) < LEISURE;
+}
+
+bool sp_deadline_presses(sp_deadline *deadline)
+{
+    double taken = sp_deadline_elapsed(deadline);
+    return sp_deadline_left(deadline) < PLENTY * taken;
 }
 
 int sp_threads(const sp_run *run)

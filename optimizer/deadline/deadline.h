@@ -15,6 +15,7 @@ typedef struct {
     bool interrupted; /* cancelled, or something was left out for want of time */
     bool asked;       /* the callback said so to this rank, of which the others have not heard yet */
     bool over;        /* the ranks have agreed that the time is over */
+    bool lent;        /* the share is lent: what it cuts short is taken up again */
     int level;        /* parallel regions around the caller: in further ones nothing can be agreed */
     size_t cut_count;
     char cut[SP_STAGES_CUT][SP_STAGE_NAME]; /* stages that were not carried out whole */
@@ -32,6 +33,9 @@ sp_deadline sp_deadline_start(const sp_run *run);
 double sp_deadline_elapsed(sp_deadline *deadline);
 /* From now on this share of the time limit may be spent. */
 void sp_deadline_allow(sp_deadline *deadline, double share);
+/* Until sp_deadline_allow only this share of what is left of that; running out of it leaves nothing out, as what is cut
+ * short is taken up again. */
+void sp_deadline_lend(sp_deadline *deadline, double share);
 /* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
 double sp_deadline_left(sp_deadline *deadline);
 /* Processor seconds that this process gets in a second by the clock, since the start; 1 where ranks decide together,
@@ -49,6 +53,9 @@ bool sp_deadline_stage(sp_deadline *deadline, const char *name, sp_error *error)
 /* Whether the time limit is too short for all that a placement does at leisure: a matter of the limit and the threads
  * of all ranks alone, so that equal runs choose the same. */
 bool sp_run_hurries(const sp_run *run);
+/* Whether what is left of a time limit is less than a placement takes at leisure, judged by how long all has taken
+ * that goes before its first layout. False without a limit. */
+bool sp_deadline_presses(sp_deadline *deadline);
 /* The number of threads that a run asks for. */
 int sp_threads(const sp_run *run);
 

@@ -189,6 +189,9 @@ static void in_a_hurry_the_proposal_comes_first(void **state)
     assert_true(leisurely->coverage->covered_area == leisurely->greedy_coverage->covered_area);
     assert_true(hurried->reached);
     assert_true(hurried->coverage->flow < leisurely->coverage->flow);
+    /* with what fewer nozzles do, though no others were looked for */
+    assert_true(hurried->greedy->count > 1);
+    assert_true(hurried->by_number_count >= hurried->greedy->count);
     assert_true(hurried->coverage->covered_area == area_of(&j, hurried->layout->nozzles, hurried->layout->count));
     sp_proposal_destroy(leisurely);
     sp_proposal_destroy(hurried);
