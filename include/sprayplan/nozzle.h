@@ -193,7 +193,7 @@ SP_API void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, 
 SP_API bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
 /* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates or is measured. The
- * region of each kind is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y),
+ * region of each kind: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y),
  * what rotates by the polar angles about z that its jet comes to, what is measured by where there is any liquid. The
  * angles of what rotates are its jet's. */
 typedef struct {

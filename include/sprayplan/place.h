@@ -92,7 +92,7 @@ typedef struct {
     sp_run run;
 } sp_place_options;
 
-/* DESIGN §3's defaults, with no mounts, types or pressures. */
+/* The defaults of a scene file's `place:`, with no mounts, types or pressures. */
 SP_API sp_place_options sp_place_options_default(void);
 
 typedef struct {

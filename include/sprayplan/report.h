@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* Writes the design's coverage on the atlas pages as one PNG, its deposits as multi-part EXR (channels of DESIGN §4, a
- * part for each page and side). */
+/* Writes the design's coverage on the atlas pages as one PNG, its deposits as multi-part EXR (a part for each
+ * page and side, the channels as `sprayplan help files` has them). */
 SP_API bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error *error);
 SP_API bool sp_report_deposits_exr(const sp_design *design, const char *path, sp_error *error);
 /* Writes the design as glTF 2.0 in one file, in m, y up, all in a root that is moved to the setup's origin. Each part
@@ -35,15 +35,15 @@ SP_API bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_e
  * the unit of the scene's first geometry file (mm for STEP and IGES, see sp_setup), so that it fits on that; the header
  * tells the unit. */
 SP_API bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error);
-/* How long the pictures of the page will take, as large as they are best, s of wall time on this machine as busy as it is, judged by
- * small ones of the first design that has an evaluator; 0 where none has. */
+/* How long the pictures of the page will take, as large as they are best, s of wall time on this machine as busy as it
+ * is, judged by small ones of the first design that has an evaluator; 0 where none has. */
 SP_API bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *error);
 /* The self-contained page as HTML text (pictures inside it). Malloc'd, the caller frees. */
 SP_API char *sp_report_html(const sp_result *result, sp_error *error);
-/* Everything that DESIGN §4 lists, except layout.yaml, into `output`: result.json, report.html; of the main design
- * nozzles.csv, swabs.csv, nozzles.stl, surface.vtp and texels.vtp; nozzles-all.csv where other designs that may be
- * built have sheets too, which those before refinement have not; and coverage.png, deposits.exr and model.glb of
- * each design, with the suffixes -manual and -greedy where it is not the main one. */
+/* All files of a result but layout.yaml into `output`: result.json, report.html; of the main design nozzles.csv,
+ * swabs.csv, nozzles.stl, surface.vtp and texels.vtp; nozzles-all.csv where other designs that may be built have sheets
+ * too, which those before refinement have not; and coverage.png, deposits.exr and model.glb of each design, with the
+ * suffixes -manual and -greedy where it is not the main one. */
 SP_API bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error);
 
 /* Writes a picture of what is wet as PNG: blue what is cleaned and counted, orange the wet sides of obstacles, grey

@@ -117,8 +117,8 @@ SP_API double sp_figures_money(const sp_figures *figures);
 SP_API void sp_figures_destroy(sp_figures *figures, size_t count);
 
 /* Reads the layouts of a result.json, which may come from a stranger: every key, type, range and length is checked, and
- * an error names the file and the key's path (syntax errors: line and column). Keys that DESIGN §6 does not know are
- * ignored. Returns *count figures, destroyed by the caller. */
+ * an error names the file and the key's path (syntax errors: line and column). Keys that no result.json of this
+ * version has are ignored. Returns *count figures, destroyed by the caller. */
 SP_API sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error);
 
 /* One layout and what it does, on its own evaluator; or only figures of one (read from a result.json), the evaluator,
@@ -205,8 +205,8 @@ typedef struct {
 /* Returns how many. */
 SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
 
-/* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
- * text, newline at the end, the caller frees. */
+/* result.json, its keys as `sprayplan help result` has them; `geometry` and `fidelity` stand in each layout where the
+ * designs differ in them. Malloc'd text, newline at the end, the caller frees. */
 SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,

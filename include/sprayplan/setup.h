@@ -118,7 +118,7 @@ typedef struct {
     sp_run run;
 } sp_setup;
 
-/* DESIGN §3's defaults, with no mesh. */
+/* The defaults of a scene file, with no mesh. */
 SP_API sp_setup sp_setup_default(void);
 
 /* A point of the setup (m) in the coordinates that are read and written. */

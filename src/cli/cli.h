@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Exit status, DESIGN §4. */
+/* Exit status. */
 enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT = 4, EXIT_INTERRUPTED = 130 };
 
 #define MAX_OVERRIDES 64
