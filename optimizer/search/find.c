@@ -330,7 +330,7 @@ bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline
 bool sp_find_steps(const sp_search *search, const sp_partial *first, sp_deadline *deadline, sp_front *front,
                    sp_error *error)
 {
-    size_t stride = first->count / STEPS_NOTED + 1;
+    size_t stride = (first->count + STEPS_NOTED - 1) / STEPS_NOTED;
     sp_partial partial;
     if (!sp_partial_copy(search, first, &partial, error))
         return false;

@@ -7,8 +7,9 @@
 #define RIGHT 20
 #define TOP 16
 #define BOTTOM 56
-#define FEW 4   /* designs in a chart that has room for their legend */
-#define MANY 24 /* designs: more have none */
+#define FEW 4      /* designs in a chart that has room for their legend */
+#define LEGEND 264 /* breadth of a legend within the chart */
+#define MANY 24    /* designs: more have none */
 
 typedef struct {
     double x_max, x_step, y_min, y_max, y_step; /* L/min (price: water, and cost of mounts), % */
@@ -142,12 +143,6 @@ static void add_marker(sp_text *text, double x, double y, size_t shape, const ch
     sp_text_add(text, " fill=\"%s\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n", colour);
 }
 
-/* Few designs are explained within the chart, where fronts leave room; more, or several fronts, below it. */
-static bool is_below(const sp_page *page)
-{
-    return page->alternatives || page->result->design_count > FEW;
-}
-
 /* Lines of a legend; 0: none. */
 static size_t legend_lines(const sp_page *page)
 {
@@ -156,12 +151,38 @@ static size_t legend_lines(const sp_page *page)
     return count > MANY ? 0 : count + (proposal ? 1 + proposal->certificate.computed : 0);
 }
 
+/* Whether a legend in the lower right corner would lie over this. */
+static bool is_in_corner(const sp_page *page, const axes *a, double price, double share)
+{
+    return x_of(a, 6e4 * price) > WIDTH - RIGHT - LEGEND &&
+           y_of(a, 100 * share) > HEIGHT - BOTTOM - 30 - 22 * (double)legend_lines(page);
+}
+
+/* Few designs are explained within the chart, where the front leaves room; more, or several fronts, below it. */
+static bool is_below(const sp_page *page)
+{
+    size_t count = page->result->design_count;
+    if (page->alternatives || count > FEW)
+        return true;
+    axes a = choose_axes(page);
+    for (size_t i = 0; i < count; ++i) {
+        const sp_proposal *proposal = front_of(page, i);
+        if (is_in_corner(page, &a, sp_page_price(&page->figures[i]), page->figures[i].coverage))
+            return true;
+        for (size_t k = 0; proposal && k < proposal->front_count; ++k)
+            if (is_in_corner(page, &a, k + 1 < proposal->front_count ? proposal->front[k + 1].outlay : INFINITY,
+                             proposal->front[k].area / page->figures[i].clean_area))
+                return true;
+    }
+    return false;
+}
+
 /* The place of a line's text, the designs' lines first. */
 static void legend_place(const sp_page *page, size_t line, double *x, double *y)
 {
     size_t count = page->result->design_count;
     bool below = is_below(page);
-    *x = below ? LEFT + 26 : WIDTH - RIGHT - 234;
+    *x = below ? LEFT + 26 : WIDTH - RIGHT - LEGEND + 30;
     *y = below          ? HEIGHT + 14 + 22 * (double)line
          : line < count ? HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - line)
                         : HEIGHT - BOTTOM - 20 - 22 * (double)line;

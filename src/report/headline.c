@@ -120,7 +120,7 @@ static void add_doubtful_alternatives(const sp_page *page, sp_text *text)
 static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
     if (proposal->interrupted) {
-        sp_text_add(text, "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end");
+        sp_text_add(text, "<p class=\"warning\"><strong>Cut short.</strong> The search was stopped before its end");
         sp_page_cut(text, proposal);
         sp_text_add(text, "; this is the best layout found until then.</p>\n");
     }

@@ -118,7 +118,7 @@ static size_t shadow_at(const sp_shot *shot, const sp_listed_shadows *shadows, s
 
 /* What a picture shows of a shadow. */
 typedef struct {
-    double x, y; /* its middle, pixels */
+    double x, y; /* its middle, columns and rows of samples */
     size_t samples;
     size_t left, right, top, bottom; /* columns and rows of samples, the last ones included */
 } sight;
@@ -129,8 +129,8 @@ static void add_to(sight *s, size_t column, size_t row)
     s->top = s->samples && s->top < row ? s->top : row;
     s->right = s->right > column ? s->right : column;
     s->bottom = s->bottom > row ? s->bottom : row;
-    s->x += 0.5 * (double)column;
-    s->y += 0.5 * (double)row;
+    s->x += (double)column;
+    s->y += (double)row;
     s->samples++;
 }
 
@@ -164,8 +164,8 @@ static void place_number(sp_labels *labels, sp_text *text, const sp_shot *shot, 
     double best[2] = {INFINITY, INFINITY}, box[4]; /* how far from the middle: without room, with room */
     for (size_t row = seen->top; row <= seen->bottom; ++row)
         for (size_t column = seen->left; column <= seen->right; ++column) {
-            const double spot[2] = {0.5 * (double)column, 0.5 * (double)row};
-            double far = hypot(spot[0] - seen->x, spot[1] - seen->y);
+            const double spot[2] = {labels->sample * (double)column, labels->sample * (double)row};
+            double far = hypot((double)column - seen->x, (double)row - seen->y);
             if (far >= best[1] || shadow_at(shot, shadows, row * 2 * (size_t)shot->width + column) != number)
                 continue;
             box_around(spot, box);

@@ -9,6 +9,7 @@
 #define SP_LABELS 256 /* what comes after them is not kept clear of */
 typedef struct {
     double width, height; /* of the picture that they are to stay in; 0: of none */
+    double sample;        /* edge of one of the shot's samples there; 0: no shot is labelled */
     size_t count;
     double box[SP_LABELS][4]; /* left, top, right, bottom */
 } sp_labels;

@@ -48,6 +48,7 @@ static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rg
         sp_layers_colour(by->layers, by->scale, by->deposits, look, stripe, rgb);
 }
 
+/* `camera` is that of a picture at full size: what is written over a smaller shot keeps its size on the page. */
 static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_viewpoint *viewpoint,
                         const sp_camera *camera, const sp_layers *layers, const sp_shot *shot,
                         const sp_listed_shadows *shadows, sp_error *error)
@@ -60,21 +61,21 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     free(pixels);
     if (!bytes)
         return false;
-    sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", shot->width,
-                shot->height + SP_SCALE_STRIP);
+    sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", camera->width,
+                camera->height + SP_SCALE_STRIP);
     sp_page_name(page, text, design);
     sp_text_add(text,
                 ", %s: %s in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
-                "href=\"data:image/webp;base64,",
+                "preserveAspectRatio=\"none\" href=\"data:image/webp;base64,",
                 viewpoint->caption,
                 page->scale.style.quantity == SP_QUANTITY_FLUX ? "coverage"
                                                                : sp_quantity_words_of[page->scale.style.quantity].name,
-                shown->layout->count, shot->width, shot->height);
+                shown->layout->count, camera->width, camera->height);
     sp_markup_base64(text, bytes, size);
     sp_text_add(text, "\"/>\n");
     free(bytes);
     sp_overlay_sprays(text, camera, shown->evaluator, shown->layout);
-    sp_labels labels = {.width = shot->width, .height = shot->height};
+    sp_labels labels = {.width = camera->width, .height = camera->height, .sample = 0.5 * camera->width / shot->width};
     sp_labels_nozzles(&labels, text, camera, shown->layout);
     sp_labels_shadows(&labels, text, shot, shadows);
     sp_overlay_scale(text, camera);
@@ -89,7 +90,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
 }
 
 /* What is traced once serves all designs in a row that share an evaluator. */
-static bool add_view(const sp_page *page, sp_text *text, const sp_viewpoint *viewpoint, int pixels,
+static bool add_view(const sp_page *page, sp_text *text, const sp_viewpoint *viewpoint, int full, int pixels,
                      const sp_listed_shadows *shadows, sp_error *error)
 {
     sp_camera camera = {0};
@@ -103,10 +104,11 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_viewpoint *vie
         if (layers.evaluator != evaluator) {
             sp_layers_free(&layers);
             sp_shot_free(&shot);
-            camera = sp_camera_create(evaluator, page->result, viewpoint, pixels);
+            camera = sp_camera_create(evaluator, page->result, viewpoint, full);
+            sp_camera smaller = sp_camera_create(evaluator, page->result, viewpoint, pixels);
             done =
                 sp_layers_create_for(&layers, evaluator, &page->scale, error) &&
-                sp_shot_create(&shot, evaluator, &camera, page->scale.style.wireframe, look_at_patch, &layers, error);
+                sp_shot_create(&shot, evaluator, &smaller, page->scale.style.wireframe, look_at_patch, &layers, error);
         }
         done = done && add_picture(page, text, i, viewpoint, &camera, &layers, &shot, &shadows[i], error);
     }
@@ -162,7 +164,7 @@ static int full_size(size_t drawn)
 static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error *error)
 {
     double share = page->result->picture_share;
-    int pixels = share > 0 ? 2 * (int)(share * full_size(drawn) / 2) : full_size(drawn);
+    int full = full_size(drawn), pixels = share > 0 ? 2 * (int)(share * full / 2) : full;
     sp_listed_shadows *shadows = list_shadows(page->result, error);
     bool done = shadows != NULL;
     /* three alternatives and the manual layout make a square */
@@ -170,7 +172,7 @@ static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error
     for (int i = 0; done && i < SP_VIEWPOINTS; ++i) {
         sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_viewpoints[i].caption,
                     row);
-        done = add_view(page, text, &sp_viewpoints[i], pixels, shadows, error);
+        done = add_view(page, text, &sp_viewpoints[i], full, pixels, shadows, error);
         sp_text_add(text, "</div></div>\n");
     }
     for (size_t i = 0; shadows && i < page->result->design_count; ++i)

@@ -530,7 +530,6 @@ static void figures_survive_the_file(void **state)
     sp_figures_destroy(read, count);
 }
 
-/* Before anything else: how much, why, and of which parts. */
 /* By name, with the pictures, for which there was no time either. */
 static void what_was_left_out_is_named(void **state)
 {
@@ -562,6 +561,66 @@ static void what_was_left_out_is_named(void **state)
     free(text);
 }
 
+/* What is written over a picture keeps its place and size on the page, however few pixels the picture has. */
+static void smaller_pictures_have_the_same_labels(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_result result = f->result;
+    char *full = sp_report_html(&result, &error);
+    result.picture_share = 0.3;
+    char *small = sp_report_html(&result, &error);
+    assert_true(full && small && strlen(small) < strlen(full));
+    const char *a = full, *b = small;
+    static const char *const over[] = {"<svg class=\"view\" viewBox=", "<circle class=\"nozzle\"",
+                                       "<text class=\"name\""};
+    size_t compared = 0;
+    for (size_t k = 0; k < sizeof over / sizeof *over; k++, a = full, b = small)
+        while ((a = strstr(a, over[k])) && (b = strstr(b, over[k]))) {
+            assert_memory_equal(a, b, strcspn(a, ">"));
+            a++, b++, compared++;
+        }
+    assert_true(compared > 20);
+    assert_null(strstr(full, "class=\"shadow\" cx=\"0.0\""));
+    assert_null(strstr(small, "class=\"shadow\" cx=\"0.0\""));
+    free(full);
+    free(small);
+}
+
+/* The height of the chart of the front, in its own units. */
+static double chart_height(const sp_result *result)
+{
+    sp_error error = {0};
+    char *html = sp_report_html(result, &error);
+    const char *chart = strstr(html, "<svg class=\"chart\" viewBox=\"0 0 ");
+    double width = 0, height = 0;
+    assert_true(chart && sscanf(chart, "<svg class=\"chart\" viewBox=\"0 0 %lf %lf", &width, &height) == 2);
+    free(html);
+    return height;
+}
+
+/* Where much water covers little, so that the corner has points in it, the legend stands below the chart. */
+static void the_legend_leaves_points_alone(void **state)
+{
+    const fixture *f = *state;
+    sp_result result = f->result;
+    sp_proposal proposal = f->proposal;
+    sp_front_point front[3];
+    result.proposal = &proposal;
+    proposal.front = front;
+    memcpy(front, f->front, sizeof front);
+    double clean = sp_evaluator_patches(f->evaluator)->total_area;
+    for (int i = 0; i < 3; i++)
+        front[i].area = (0.9 + 0.01 * i) * clean;
+    front[0].outlay = 1e-9;
+    double within = chart_height(&result);
+    front[2].outlay *= 2;
+    front[2].area = 0.5 * clean;
+    front[1].area = front[0].area = 0.1 * clean;
+    assert_true(chart_height(&result) > within);
+}
+
+/* Before anything else: how much, why, and of which parts. */
 static void what_is_out_of_reach_is_said_first(void **state)
 {
     const fixture *f = *state;
@@ -705,6 +764,8 @@ int main(void)
         cmocka_unit_test(flux_is_told_as_it_is),
         cmocka_unit_test(figures_survive_the_file),
         cmocka_unit_test(what_was_left_out_is_named),
+        cmocka_unit_test(smaller_pictures_have_the_same_labels),
+        cmocka_unit_test(the_legend_leaves_points_alone),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
