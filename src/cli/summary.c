@@ -198,6 +198,21 @@ static void print_forward_check(const sp_forward_check *check)
             1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
 }
 
+/* A share of 100 % would say nothing. */
+static void print_every_aim(const sp_proposal *proposal)
+{
+    const sp_certificate *certificate = &proposal->certificate;
+    double percent = ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10;
+    printf("Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
+           "reaches it with less\nthan %.1f L/min%s",
+           certificate->every_aim.places, floor(6e5 * certificate->every_aim.water_bound + 1e-6) / 10,
+           proposal->costly ? " of water and cost of mounts" : "");
+    if (percent < 100)
+        printf(", and %s none covers more than %.1f %%",
+               proposal->costly ? "for the proposal's price" : "with the proposal's water", percent);
+    printf(". Places between are not covered.\n");
+}
+
 static void print_certificate(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
@@ -216,14 +231,7 @@ static void print_certificate(const sp_proposal *proposal)
         proposal->costly ? "For the proposal's price" : "With the proposal's water",
         ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, ceil(1e3 * certificate->gap - 1e-9) / 10);
     if (certificate->every_aim.computed)
-        printf(
-            "Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
-            "reaches it with less\nthan %.1f L/min%s, and %s none covers more than %.1f %%. "
-            "Places between are not covered.\n",
-            certificate->every_aim.places, floor(6e5 * certificate->every_aim.water_bound + 1e-6) / 10,
-            proposal->costly ? " of water and cost of mounts" : "",
-            proposal->costly ? "for the proposal's price" : "with the proposal's water",
-            ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10);
+        print_every_aim(proposal);
 }
 
 enum { PARTS_NAMED = 3 };

@@ -93,9 +93,11 @@ static const sp_key nozzles_csv_keys[] = {
     {.name = "circuit", .kind = SP_KEY_NUMBER, .says = "Nozzles of one pressure, from 1"},
     {.name = "circuit_l_min", .kind = SP_KEY_NUMBER, .says = "What that circuit has to supply"},
     {.name = NULL}};
-static const sp_block nozzles_csv = {"nozzles_csv", "columns of the sheet",
-                                     "What a fitter welds, sets and orders; rounded to what can be set",
-                                     nozzles_csv_keys};
+static const sp_block nozzles_csv = {
+    "nozzles_csv", "columns of the sheet",
+    "What a fitter welds, sets and orders, rounded to what can be set; place, axis and angle of the spray are "
+    "layout.yaml's",
+    nozzles_csv_keys};
 
 static const sp_key swabs_keys[] = {
     {.name = "number", .kind = SP_KEY_COUNT, .says = "From 1"},

@@ -23,9 +23,12 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
                 "set, and of the proposal&#39;s own poses, no layout reaches that with less than ",
                 only ? " id=\"every-aim\"" : "", found->every_aim.places);
     sp_markup_decimals(text, floor(6e5 * found->every_aim.water_bound + 1e-6) / 10, 1);
-    sp_text_add(text, "&nbsp;L/min%s, and with the proposal&#39;s %s none reaches more than ",
-                proposal->costly ? of_both : "", proposal->costly ? "price" : "water");
-    add_percent(text, found->every_aim.area_bound / found->whole, true);
+    sp_text_add(text, "&nbsp;L/min%s", proposal->costly ? of_both : "");
+    if (ceil(1e3 * found->every_aim.area_bound / found->whole - 1e-9) < 1e3) { /* else it says nothing */
+        sp_text_add(text, ", and with the proposal&#39;s %s none reaches more than ",
+                    proposal->costly ? "price" : "water");
+        add_percent(text, found->every_aim.area_bound / found->whole, true);
+    }
     sp_text_add(text, ". Places between the mounting points are not covered.</p>\n");
 }
 

@@ -1,6 +1,8 @@
 /* Coverage against water, or price: the best found as it rises, and the designs. */
 #include "page.h"
 
+#include <string.h>
+
 #define WIDTH 760
 #define HEIGHT 380
 #define LEFT 70
@@ -8,7 +10,9 @@
 #define TOP 16
 #define BOTTOM 56
 #define FEW 4      /* designs in a chart that has room for their legend */
-#define LEGEND 264 /* breadth of a legend within the chart */
+#define LEGEND 264 /* from its left to the right of the chart, of a legend within it */
+#define LETTER 7.0 /* breadth of one, on average */
+#define MARKER 8   /* about its middle */
 #define MANY 24    /* designs: more have none */
 
 typedef struct {
@@ -151,11 +155,23 @@ static size_t legend_lines(const sp_page *page)
     return count > MANY ? 0 : count + (proposal ? 1 + proposal->certificate.computed : 0);
 }
 
-/* Whether a legend in the lower right corner would lie over this. */
-static bool is_in_corner(const sp_page *page, const axes *a, double price, double share)
+/* Characters of a legend's longest line, more or less. */
+static size_t legend_letters(const sp_page *page)
 {
-    return x_of(a, 6e4 * price) > WIDTH - RIGHT - LEGEND &&
-           y_of(a, 100 * share) > HEIGHT - BOTTOM - 30 - 22 * (double)legend_lines(page);
+    size_t most = page->result->proposal ? strlen("Best found for rising water") : 0;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        size_t letters = strlen(page->result->designs[i].name);
+        most = letters > most ? letters : most;
+    }
+    return most;
+}
+
+/* Whether a legend in the lower right corner would lie over a line at this height. */
+static bool is_in_corner(const sp_page *page, const axes *a, double from, double to, double share)
+{
+    double right = WIDTH - RIGHT - LEGEND + 30 + LETTER * (double)legend_letters(page);
+    return x_of(a, 6e4 * to) > WIDTH - RIGHT - LEGEND - MARKER && x_of(a, 6e4 * from) < right + MARKER &&
+           y_of(a, 100 * share) > HEIGHT - BOTTOM - 12 - MARKER - 22 * (double)legend_lines(page);
 }
 
 /* Few designs are explained within the chart, where the front leaves room; more, or several fronts, below it. */
@@ -167,10 +183,12 @@ static bool is_below(const sp_page *page)
     axes a = choose_axes(page);
     for (size_t i = 0; i < count; ++i) {
         const sp_proposal *proposal = front_of(page, i);
-        if (is_in_corner(page, &a, sp_page_price(&page->figures[i]), page->figures[i].coverage))
+        double price = sp_page_price(&page->figures[i]);
+        if (is_in_corner(page, &a, price, price, page->figures[i].coverage))
             return true;
         for (size_t k = 0; proposal && k < proposal->front_count; ++k)
-            if (is_in_corner(page, &a, k + 1 < proposal->front_count ? proposal->front[k + 1].outlay : INFINITY,
+            if (is_in_corner(page, &a, proposal->front[k].outlay,
+                             k + 1 < proposal->front_count ? proposal->front[k + 1].outlay : INFINITY,
                              proposal->front[k].area / page->figures[i].clean_area))
                 return true;
     }
