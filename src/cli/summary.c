@@ -249,7 +249,7 @@ static void print_parts(const sp_figures *figures, sp_reason reason)
 }
 
 /* What no layout can cover, by reason and part; `name` of the alternative, "" for none. */
-static void print_missing(const sp_figures *figures, const char *name)
+static void print_missing(const sp_figures *figures, const sp_proposal *proposal, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
     if (!(missing > 1e-6 * figures->clean_area))
@@ -266,7 +266,7 @@ static void print_missing(const sp_figures *figures, const char *name)
         print_parts(figures, reason);
         printf("\n");
     }
-    printf("\n");
+    printf("  at the %zu mounting points looked at; places between them may reach more\n\n", proposal->positions);
 }
 
 /* What no layout can cover, of each alternative. */
@@ -275,7 +275,8 @@ static void print_all_missing(const sp_result *result, const sp_figures *figures
     size_t proposed = sp_result_proposed(result);
     for (size_t i = 0; i < result->design_count; i++)
         if (result->designs[i].alternative || i == proposed)
-            print_missing(&figures[i], result->designs[i].alternative ? result->designs[i].name : "");
+            print_missing(&figures[i], sp_result_proposal(result, i),
+                          result->designs[i].alternative ? result->designs[i].name : "");
 }
 
 /* Which alternative is proposed, and why. */

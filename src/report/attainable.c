@@ -191,9 +191,9 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
                 page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
     if (missing > NEGLIGIBLE * figures->clean_area)
         sp_text_add(text,
-                    " What is out of reach of every allowed nozzle is a fault of the %s or of the mounts allowed, "
-                    "which no choice among them mends: another port, another type of nozzle or a change of the part "
-                    "would.",
+                    " What is out of reach of every allowed nozzle at the mounting points looked at is a fault of the "
+                    "%s or of the mounts allowed, which no choice among them mends: another port, another type of "
+                    "nozzle, a change of the part or mounting points closer together would.",
                     sp_page_cleaned(page));
     sp_text_add(text, "</p>\n");
     if (missing > NEGLIGIBLE * figures->clean_area)

@@ -348,19 +348,20 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
 
 void sp_page_shadows(const sp_page *page, sp_text *text)
 {
-    sp_text_add(text,
-                "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
-                "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
-                "nozzle of the layout in "
-                "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
-                "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
-                "not attainable is out of reach of every "
-                "allowed nozzle: a matter of the %s, not of the layout. One more nozzle: of "
-                "the candidates looked at the one that, beside the "
-                "layout's own, covers most of the region, how much of it and for how much water, whatever number and "
-                "water are allowed. All that result.json lists are in "
-                "that file.</p>\n",
-                sp_page_cleaned(page));
+    sp_text_add(
+        text,
+        "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
+        "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
+        "nozzle of the layout in "
+        "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
+        "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
+        "not attainable is out of reach of every "
+        "allowed nozzle at the mounting points looked at: a matter of the %s, not of the layout. One more nozzle: of "
+        "the candidates looked at the one that, beside the "
+        "layout's own, covers most of the region, how much of it and for how much water, whatever number and "
+        "water are allowed. All that result.json lists are in "
+        "that file.</p>\n",
+        sp_page_cleaned(page));
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_shadows(page, text, i);
     sp_text_add(text, "</section>\n");
