@@ -211,12 +211,12 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     const sp_run *run = &placement->options->run;
     sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
-    bool refines = sp_refine_asked(&placement->options->refine), short_of = sp_run_hurries(run);
-    bool hurried = refines && (short_of || sp_deadline_presses(deadline));
+    bool refines = sp_refine_asked(&placement->options->refine), brief = sp_run_hurries(run);
+    bool hurried = refines && (brief || sp_deadline_presses(deadline));
     sp_partial first;
     if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
-    if (!short_of)
+    if (hurried && !brief)
         sp_deadline_lend(deadline, FIRST_SHARE);
     bool done = !hurried || refine_first(placement, &first, proposal, error);
     sp_deadline_allow(deadline, search_share(placement->options));

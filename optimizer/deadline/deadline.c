@@ -107,7 +107,7 @@ static bool decide(sp_deadline *deadline, const char *stage, double elapsed, boo
     double limit = deadline->run.time_limit;
     deadline->over = limit > 0 && elapsed > deadline->share * limit;
     bool on = !deadline->cancelled && !deadline->over;
-    if (!on && loses && !(deadline->lent && !deadline->cancelled)) {
+    if (!on && loses && (deadline->cancelled || !deadline->lent)) {
         deadline->interrupted = true;
         note_cut(deadline, stage);
     }

@@ -107,15 +107,16 @@ bool sp_compass(sp_sights *sights, double first, double least, double water, sp_
 {
     sp_search exact = *sights->search;
     exact.credit = 0;
-    bool done = true;
+    bool done = true, on = true;
     int sweeps = 0;
-    for (double step = first; done && step > least;) {
+    for (double step = first; done && on && step > least;) {
         bool moved = false;
-        if (!sp_deadline_goes_on(deadline, "refine", 1))
-            break;
-        /* after all turns the first nozzle is the first again */
-        for (size_t i = 0; done && i < partial->count; i++)
-            done = try_nozzle(&exact, sights, water, step, partial, &moved, error);
+        /* after all turns the first nozzle is the first again, out of time as well */
+        for (size_t i = 0; done && i < partial->count; i++) {
+            on = on && sp_deadline_goes_on(deadline, "refine", 1);
+            done = on ? try_nozzle(&exact, sights, water, step, partial, &moved, error)
+                      : sp_partial_add(&exact, partial, sp_partial_take(&exact, partial, 0), error);
+        }
         if (moved && ++sweeps < SWEEPS_MOST)
             continue;
         step /= 2;

@@ -121,11 +121,13 @@ static bool try_closest(sp_refining *refining, sp_trials *trials)
     return done;
 }
 
-/* The closest layouts on the final patches. */
+/* The closest layouts on the final patches, where there is time: to see them there takes long by itself. */
 static bool sharpen_closest(sp_refining *refining)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
+    if (!sp_deadline_goes_on(refining->deadline, "refine", 1))
+        return true;
     bool done = try_closest(refining, &trials) &&
                 sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error);
     for (size_t i = 0; done && i < trials.count; i++) {

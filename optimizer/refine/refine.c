@@ -122,6 +122,8 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
+    if (!sp_deadline_goes_on(refining->deadline, "refine", 1))
+        return true;
     bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_BY_TURNS);
     for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];

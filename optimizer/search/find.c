@@ -12,7 +12,8 @@
 #define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
 #define FRONT_RATIO 1.15 /* between two outlays at which the front is searched, at most */
 #define STARTS 2         /* of the search at one outlay */
-#define STEPS_NOTED 12   /* about as many layouts of the first of them are measured */
+#define STEPS_NOTED 12   /* layouts of a layout's first nozzles that are measured, about */
+#define STEPS_SHARE 0.1  /* of the time left, for these */
 #define WALK 4e8         /* patches that a walk from the better of these goes through */
 
 typedef struct {
@@ -327,21 +328,29 @@ bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline
     return false;
 }
 
+/* Measures the first `count` nozzles of a layout. */
+static bool measure_first(const sp_search *search, const sp_partial *whole, size_t count, sp_front *front,
+                          sp_error *error)
+{
+    sp_partial partial;
+    if (!sp_partial_copy(search, whole, &partial, error))
+        return false;
+    while (partial.count > count)
+        sp_partial_remove(search, &partial, partial.count - 1);
+    bool done = sp_front_measure(front, search, &partial, NULL, error);
+    sp_partial_free(&partial);
+    return done;
+}
+
 bool sp_find_steps(const sp_search *search, const sp_partial *first, sp_deadline *deadline, sp_front *front,
                    sp_error *error)
 {
     size_t stride = (first->count + STEPS_NOTED - 1) / STEPS_NOTED;
-    sp_partial partial;
-    if (!sp_partial_copy(search, first, &partial, error))
-        return false;
-    bool done = true;
-    while (done && partial.count > stride && sp_deadline_has_time(deadline, "front", 0)) {
-        for (size_t i = 0; i < stride; i++)
-            sp_partial_remove(search, &partial, partial.count - 1);
-        done = sp_front_measure(front, search, &partial, NULL, error);
-    }
-    sp_partial_free(&partial);
-    return done;
+    double until = (1 - STEPS_SHARE) * sp_deadline_left(deadline);
+    for (size_t count = stride; count < first->count && sp_deadline_left(deadline) >= until; count += stride)
+        if (!measure_first(search, first, count, front, error))
+            return false;
+    return true;
 }
 
 bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,

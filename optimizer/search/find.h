@@ -10,8 +10,7 @@
 bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline, sp_front *front, sp_pool *pool,
                    sp_partial *first, sp_error *error);
 /* Notes in `front` what the first layout's first nozzles do, up to about a dozen of their numbers, as far as time
- * allows.
- */
+ * allows. */
 bool sp_find_steps(const sp_search *search, const sp_partial *first, sp_deadline *deadline, sp_front *front,
                    sp_error *error);
 /* Finds better ones, and those for other amounts of water and numbers of nozzles. */
