@@ -238,8 +238,8 @@ typedef struct {
 } sp_swab;
 #define SP_SWABS 10
 /* The worst places of a design with an evaluator, worst first: those that receive the least share of what the criterion
- * asks for, of equally bad ones those farthest from anything covered, counted in patches; no two nearer to each other
- * than 5 % of the geometry's diagonal. */
+ * asks for, of equally bad ones those farthest from anything covered, counted in patches, 20 % of the geometry's
+ * diagonal apart where they can be; no two nearer to each other than 5 %. */
 SP_API bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error);
 /* swabs.csv: number,part,x_m,y_m,z_m,received_percent,flux_l_min_m2,speed_m_s,incidence_deg,lack. What is not known is
  * empty; texts as in nozzles.csv. Malloc'd. */

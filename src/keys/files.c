@@ -111,9 +111,10 @@ static const sp_key swabs_keys[] = {
     {.name = "incidence_deg", .kind = SP_KEY_NUMBER, .says = "Mean"},
     {.name = "lack", .kind = SP_KEY_TEXT, .says = "As `lack` of a shadow in result.json"},
     {.name = NULL}};
-static const sp_block swabs = {
-    "swabs", "columns",
-    "The ten worst places of the layout, at least 5 % of the diagonal apart: where to take samples first", swabs_keys};
+static const sp_block swabs = {"swabs", "columns",
+                               "The ten worst places of the layout, at least 5 % of the diagonal apart, equally bad "
+                               "ones farther where they can be: where to take samples first",
+                               swabs_keys};
 
 static const sp_key files_keys[] = {
     {.name = "report.html", .kind = SP_KEY_FILE, .says = "The report: one file that asks nothing of any server"},

@@ -50,8 +50,9 @@ bool sp_page_swabs(const sp_page *page, sp_text *text, sp_error *error)
     for (size_t i = 0; i < count; ++i)
         add_swab(text, i + 1, &swabs[i]);
     sp_text_add(text, "</tbody></table></div>\n<p class=\"note\">The places that receive the least share of what the "
-                      "criterion asks for, of equally bad ones those deepest in a shadow, at least 5&nbsp;%% of the "
-                      "geometry&#39;s diagonal apart. Flux is all that arrives, with its mean speed and incidence; the "
+                      "criterion asks for, of equally bad ones those deepest in a shadow, 20&nbsp;%% of the "
+                      "geometry&#39;s diagonal apart where they can be, all at least 5&nbsp;%%. Flux is all that "
+                      "arrives, with its mean speed and incidence; the "
                       "share is of what the criterion counts. The same is in swabs.csv.</p></section>\n");
     return true;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #define APART 0.05 /* of the geometry's diagonal */
+#define SPREAD 4   /* times as far apart, first, of places that are equally bad */
 
 typedef struct {
     double received; /* share of what is asked for; INFINITY where any liquid that passes will do */
@@ -105,9 +106,21 @@ static sp_swab describe(const sp_design *design, const candidate *found)
                      .lack = sp_patch_lack(design->evaluator, design->coverage, patch)};
 }
 
-bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error)
+/* Of equally bad places, the deepest first: at first far apart, and none half as deep as the deepest or less, so that
+ * one large dry region does not take them all, then nearer. */
+static void choose(const sp_design *design, const candidate *list, size_t all, double least, sp_swab swabs[SP_SWABS],
+                   size_t *count)
 {
     const sp_patches *patches = sp_evaluator_patches(design->evaluator);
+    for (int spread = SPREAD; spread >= 1; spread /= 2)
+        for (size_t i = 0; i < all && *count < SP_SWABS; ++i)
+            if ((spread == 1 || list[i].depth > list[0].depth / 2) &&
+                is_apart(patches, swabs, *count, list[i].patch, spread * least))
+                swabs[(*count)++] = describe(design, &list[i]);
+}
+
+bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error)
+{
     sp_vec3 low, high;
     double least = APART * sp_mesh_box(sp_evaluator_setup(design->evaluator)->mesh, &low, &high);
     size_t all;
@@ -115,9 +128,11 @@ bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *cou
     *count = 0;
     if (!list)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < all && *count < SP_SWABS; ++i)
-        if (is_apart(patches, swabs, *count, list[i].patch, least))
-            swabs[(*count)++] = describe(design, &list[i]);
+    for (size_t i = 0, next; i < all; i = next) {
+        for (next = i + 1; next < all && list[next].received == list[i].received;)
+            next++;
+        choose(design, &list[i], next - i, least, swabs, count);
+    }
     free(list);
     return true;
 }

@@ -254,6 +254,26 @@ static void swabs_of_a_clean_floor_have_least_to_spare(void **state)
     close_stage(&s);
 }
 
+/* Nothing reaches the floor: its ten samples are spread over the deep half of it, though all of it is as bad. */
+static void swabs_of_a_dry_floor_are_spread(void **state)
+{
+    (void)state;
+    stage s;
+    sp_error error = {0};
+    sp_swab swabs[SP_SWABS];
+    size_t count, far = 0;
+    open_stage(&s, false, (sp_criterion){.flux = 100 * FLOW / M_PI, .incidence = M_PI / 2}, &middle, 1);
+    for (size_t p = 0; p < s.coverage->deposits.count; p++)
+        s.coverage->deposits.counted[p] = 0;
+    assert_true(sp_find_swabs(&s.design, swabs, &count, &error));
+    assert_int_equal(count, SP_SWABS);
+    for (size_t i = 1; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            far += sp_distance(swabs[i].place, swabs[k].place) >= 4 * 0.05 * sqrt(8);
+    assert_int_equal(far, SP_SWABS * (SP_SWABS - 1) / 2);
+    close_stage(&s);
+}
+
 /* FIPS 180-4's own example. */
 static void a_digest_is_sha_256(void **state)
 {
@@ -275,10 +295,15 @@ static void a_digest_is_sha_256(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sprays_apart_are_worth_what_they_cover),     cmocka_unit_test(twins_are_worth_nothing_or_all),
-        cmocka_unit_test(without_the_only_one_all_is_lost),           cmocka_unit_test(shadows_tell_what_they_lack),
-        cmocka_unit_test(figures_tell_parts_and_who_is_nearest),      cmocka_unit_test(swabs_are_the_worst_places),
-        cmocka_unit_test(swabs_of_a_clean_floor_have_least_to_spare), cmocka_unit_test(a_digest_is_sha_256),
+        cmocka_unit_test(sprays_apart_are_worth_what_they_cover),
+        cmocka_unit_test(twins_are_worth_nothing_or_all),
+        cmocka_unit_test(without_the_only_one_all_is_lost),
+        cmocka_unit_test(shadows_tell_what_they_lack),
+        cmocka_unit_test(figures_tell_parts_and_who_is_nearest),
+        cmocka_unit_test(swabs_are_the_worst_places),
+        cmocka_unit_test(swabs_of_a_clean_floor_have_least_to_spare),
+        cmocka_unit_test(swabs_of_a_dry_floor_are_spread),
+        cmocka_unit_test(a_digest_is_sha_256),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
