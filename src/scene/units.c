@@ -31,8 +31,17 @@ static void leave(ut_error_message_handler handler)
     pthread_mutex_unlock(&inside);
 }
 
-/* 1 US gallon = 231 cubic inches = 3.785411784 L, exactly. */
-static const double us_gallon = 3.785411784e-3;
+/* What makers' sheets have and udunits does not know. A pressure is always a difference here, so that one above the
+ * air's is no other; a US gallon is 231 cubic inches, exactly. */
+static const struct {
+    const char *name, *scaled;
+    double factor;
+} sheet_units[] = {
+    {"deg", "rad", M_PI / 180}, {"gpm", "m3/s", 3.785411784e-3 / 60},
+    {"lpm", "L/min", 1},        {"LPM", "L/min", 1},
+    {"psig", "psi", 1},         {"barg", "bar", 1},
+    {"cP", "mPa.s", 1},
+};
 
 static bool add_unit(ut_system *system, const char *name, double factor, const char *of)
 {
@@ -51,8 +60,9 @@ sp_units *sp_units_create(sp_error *error)
         return sp_fail_memory(error);
     ut_error_message_handler handler = enter();
     units->system = ut_read_xml(NULL);
-    bool good = units->system && add_unit(units->system, "deg", acos(-1) / 180, "rad") &&
-                add_unit(units->system, "gpm", us_gallon / 60, "m3/s");
+    bool good = units->system != NULL;
+    for (size_t i = 0; good && i < sizeof sheet_units / sizeof *sheet_units; i++)
+        good = add_unit(units->system, sheet_units[i].name, sheet_units[i].factor, sheet_units[i].scaled);
     leave(handler);
     if (good)
         return units;

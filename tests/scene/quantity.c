@@ -51,6 +51,11 @@ static void conversions(void **state)
     is("6 l/min", "m3/s", 1e-4);
     is("3.6 m3/h", "m3/s", 1e-3);
     is("1 gpm", "m3/s", 3.785411784e-3 / 60);
+    is("6 lpm", "m3/s", 1e-4);
+    is("6 LPM", "m3/s", 1e-4);
+    is("2 barg", "Pa", 2e5);
+    is("20 psig", "Pa", 20 * 6894.757293168361);
+    is("1.1 cP", "Pa.s", 1.1e-3);
     is("60 L/min/m2", "m/s", 1e-3);
     is("60 L/(min.m^2)", "m/s", 1e-3);
     is("1 mPa.s", "Pa.s", 1e-3);
