@@ -49,7 +49,7 @@ static double farthest_flight(const sp_evaluator *evaluator, const sp_place_opti
         const sp_mount *mount = &options->mounts[m];
         stretch_over(&box, mount);
         if (mount->kind == SP_MOUNT_SURFACE) /* along it in either direction of its plane */
-            moves = fmax(moves, 2 * (options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position));
+            moves = fmax(moves, 2 * sp_move_limit(options, mount));
     }
     for (size_t i = 0; i < sites->count; i++)
         stretch(&box, sites->items[i].position);

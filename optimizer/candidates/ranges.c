@@ -26,3 +26,9 @@ void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const
     *high =
         sp_type_flow(type, sp_step_nearest(type->flow_step, type->flow, most, least, most), pressure, &setup->liquid);
 }
+
+double sp_move_limit(const sp_place_options *options, const sp_mount *mount)
+{
+    double spacing = mount->kind == SP_MOUNT_PORT ? mount->depth_spacing : mount->spacing;
+    return options->refine.position < 0 ? 0.5 * spacing : options->refine.position;
+}

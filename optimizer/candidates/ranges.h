@@ -1,4 +1,4 @@
-/* What may be set of a type: its pressure, angle and flow. */
+/* What may be set of a type, its pressure, angle and flow, and how far its place may be moved. */
 #ifndef OPTIMIZER_RANGES_H
 #define OPTIMIZER_RANGES_H
 
@@ -14,5 +14,8 @@ double sp_fed_pressure(const sp_nozzle_type *type, double pressure);
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
 void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high);
+/* m that refinement may move a nozzle from where it was mounted, along each direction that the mount has; along a
+ * surface in all. */
+double sp_move_limit(const sp_place_options *options, const sp_mount *mount);
 
 #endif

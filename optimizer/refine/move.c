@@ -1,5 +1,7 @@
 #include "refine/move.h"
 
+#include "candidates/ranges.h"
+
 #define PULLS 4    /* tries to bring a move within its limit */
 #define PULL 0.995 /* of the limit, of each */
 
@@ -8,8 +10,7 @@
 static bool move_along_surface(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
 {
     const sp_place_options *options = search->options;
-    const sp_mount *mount = &options->mounts[placed->site.mount];
-    double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
+    double limit = sp_move_limit(options, &options->mounts[placed->site.mount]);
     sp_vec3 from = placed->origin.position;
     for (int i = 0; i < PULLS; i++) {
         *site = placed->site;
@@ -28,9 +29,8 @@ static bool move_along_surface(const sp_search *search, const sp_placed *placed,
 static bool move_site(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
 {
     const sp_place_options *options = search->options;
-    const sp_mount *mount = &options->mounts[placed->site.mount];
     sp_site there = placed->site;
-    if (mount->kind == SP_MOUNT_SURFACE) {
+    if (options->mounts[placed->site.mount].kind == SP_MOUNT_SURFACE) {
         if (!move_along_surface(search, placed, position, &there))
             return false;
     } else {

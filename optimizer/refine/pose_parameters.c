@@ -1,5 +1,7 @@
 #include "refine/pose_parameters.h"
 
+#include "candidates/ranges.h"
+
 static void add(sp_pose_parameters *parameters, sp_unknown kind, sp_vec3 move, double value, double low, double high)
 {
     if (!(high - low > 1e-9 * (fabs(high) + fabs(low))))
@@ -23,8 +25,7 @@ static void add_move(sp_pose_parameters *parameters, sp_vec3 direction, double f
 static void add_place(sp_pose_parameters *parameters, const sp_place_options *options, const sp_mount *mount)
 {
     sp_vec3 at = parameters->origin.position;
-    double spacing = mount->kind == SP_MOUNT_PORT ? mount->depth_spacing : mount->spacing;
-    double limit = options->refine.position < 0 ? 0.5 * spacing : options->refine.position;
+    double limit = sp_move_limit(options, mount);
     sp_vec3 along = sp_sub(mount->to, mount->from), unit = sp_unit(along);
     switch (mount->kind) {
     case SP_MOUNT_PORT:

@@ -73,8 +73,8 @@ typedef struct {
                      float *share, float *counts, sp_run_of_arrivals *runs);
     /* totals[bin] = Σ items */
     void (*total)(const sp_view *view, const float *items, float *totals);
-    /* gain[i] = what an arrival is worth to a patch of `area` that has `had`; room[i] = what it could
-     * add at most. */
+    /* gain[i] = what an arrival is worth to a patch of `area` that has `had`; room[i] = what it could add at
+     * most. */
     void (*gain)(const sp_credit *credit, size_t count, const float *had, const float *area, const float *transfer,
                  float *gain);
     void (*room)(const sp_credit *credit, size_t count, const float *had, const float *area, float *room);

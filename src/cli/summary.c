@@ -266,7 +266,8 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
         print_parts(figures, reason);
         printf("\n");
     }
-    printf("  at the %zu mounting points looked at; places between them may reach more\n\n", proposal->positions);
+    printf("  at the %zu mounting points looked at; places between them, if any, may reach more\n\n",
+           proposal->positions);
 }
 
 /* What no layout can cover, of each alternative. */
