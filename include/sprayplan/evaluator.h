@@ -99,6 +99,9 @@ typedef struct {
     sp_vec3 place; /* m */
     double width;  /* m, across its narrow way */
     double share;  /* of all lines from wet sides */
+    /* Of a cap about the place that would shut it, as sp_cap has it, and would part nothing else. */
+    sp_vec3 normal; /* outward, of length 1 */
+    double radius;  /* m; 0: none was found, as the rim is not seen whole */
 } sp_opening;
 #define SP_OPENINGS 16 /* as many are kept */
 /* The openings that are most seen through, in that order. Owned by the evaluator. None but for a cavity's point. */

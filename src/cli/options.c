@@ -221,7 +221,7 @@ static void tell_unknown(const char *what, const char *text, const char *meant)
     if (meant)
         fprintf(stderr, "sprayplan: unknown %s \"%s\"; did you mean %s?\n", what, text, meant);
     else
-        fprintf(stderr, "sprayplan: unknown %s \"%s\"\n", what, text);
+        fprintf(stderr, "sprayplan: unknown %s \"%s\"; see sprayplan help\n", what, text);
 }
 
 /* Commands, then topics. */

@@ -52,12 +52,12 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         const char *arguments, *complaint;
     } calls[] = {
         {"", "usage: sprayplan"},
-        {"paint room.yaml", "unknown command \"paint\"\n"},
+        {"paint room.yaml", "unknown command \"paint\"; see sprayplan help\n"},
         {"plcae room.yaml", "unknown command \"plcae\"; did you mean place?\n"},
         {"help simulat", "unknown command or topic \"simulat\"; did you mean simulate?\n"},
         {"help scnee", "unknown command or topic \"scnee\"; did you mean scene?\n"},
         {"help catalog", "unknown command or topic \"catalog\"; did you mean catalogue?\n"},
-        {"help rain", "unknown command or topic \"rain\"\n"},
+        {"help rain", "unknown command or topic \"rain\"; see sprayplan help\n"},
         {"help check place", "help: found 2 file names"},
         {"--json", "found no command"},
         {"place room.yaml --time-limt 3", "unknown option --time-limt; did you mean --time-limit?\n"},

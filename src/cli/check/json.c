@@ -1,6 +1,7 @@
 /* What was found, as one JSON object. */
 #include "cad.h"
 #include "findings.h"
+#include "openings.h"
 
 static json_t *mesh_json(const cli_findings *found)
 {
@@ -44,19 +45,6 @@ static json_t *parts_json(const cli_findings *found)
                              vector_json(found->part_box[i].maximum), "volume_m3", volume_json(found->part_volume[i]),
                              "body_volume_m3", volume_json(setup->mesh->parts[i].volume)));
     return parts;
-}
-
-static json_t *openings_json(const cli_findings *found)
-{
-    size_t count;
-    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = cli_findings_told(found, openings[i].place);
-        json_array_append_new(list, json_pack("{s:[fff], s:f, s:f}", "place_m", p.x, p.y, p.z, "width_m",
-                                              openings[i].width, "share", openings[i].share));
-    }
-    return list;
 }
 
 static json_t *hollows_json(const cli_findings *found)
@@ -111,7 +99,7 @@ bool cli_findings_print_json(const cli_findings *found)
         cli_flaws_json(&found->mesh), "repair", cli_repair_json(&found->repair), "sizes", sizes_json(found), "cad",
         cli_cad_json(found->opened->scene, cli_findings_setup(found)->mesh), "parts", parts_json(found), "cavity_m",
         cavity_json(cli_findings_setup(found)), "sweep", sweep_json(found->opened->evaluator), "openings",
-        openings_json(found), "hollows", hollows_json(found), "outdoors_m2",
+        cli_openings_json(found->opened->evaluator), "hollows", hollows_json(found), "outdoors_m2",
         sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
         sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
         (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",

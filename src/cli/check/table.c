@@ -1,6 +1,7 @@
 /* What was found, for people. */
 #include "cad.h"
 #include "findings.h"
+#include "openings.h"
 
 static void print_cavity(const sp_setup *setup)
 {
@@ -50,19 +51,6 @@ static void print_parts(const cli_findings *found)
     }
 }
 
-static bool print_openings(const cli_findings *found)
-{
-    size_t count;
-    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
-    if (count)
-        printf("\n%-36s %12s %26s\n", "opening at m", "width m", "share of lines of sight");
-    for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = cli_findings_told(found, openings[i].place);
-        printf("[%10.4f, %10.4f, %10.4f] %12.4g %26.2g\n", p.x, p.y, p.z, openings[i].width, openings[i].share);
-    }
-    return count > 0;
-}
-
 static void print_hollows(const cli_findings *found)
 {
     size_t count;
@@ -98,7 +86,7 @@ void cli_findings_print(const cli_findings *found, const char *output)
     print_parts(found);
     print_boxes(found);
     cli_cad_print_volumes(cli_findings_setup(found)->mesh, found->part_volume);
-    bool open = print_openings(found);
+    bool open = cli_openings_print(found->opened->evaluator);
     print_hollows(found);
     bool flawed = cli_flaws_print(&found->mesh);
     cli_repair_print(&found->repair);

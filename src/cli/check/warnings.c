@@ -98,23 +98,13 @@ static void warn_of_sides(cli_findings *found)
 static void warn_of_openings(cli_findings *found)
 {
     double outdoors = sp_evaluator_outdoors(found->opened->evaluator);
-    size_t count;
-    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
     if (!(outdoors > 0))
         return;
     warn(
         found,
         "cavity: %.4g m2 of surface under the sky are seen through openings, and left out; see openings, and shut with "
-        "a lid or `caps:` what is shut in use",
+        "a lid or one of their caps what is shut in use",
         outdoors);
-    for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = cli_findings_told(found, openings[i].place);
-        warn(
-            found,
-            "cavity: an opening at [%.4g m, %.4g m, %.4g m], about %.2g m wide; a cap for it: {point: [%.4g m, %.4g m, "
-            "%.4g m], normal: .., radius: ..}",
-            p.x, p.y, p.z, openings[i].width, p.x, p.y, p.z);
-    }
 }
 
 static void warn_of_hollows(cli_findings *found)

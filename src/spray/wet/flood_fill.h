@@ -29,7 +29,8 @@ typedef struct {
     bool *in_view;  /* [sides], the middle of the side sees the cavity's point */
 } sp_flood;
 
-/* caps.c: whether a line meets one of the setup's caps before t. */
+/* caps.c: whether a line meets a cap, or one of the setup's, before t. */
+bool sp_cap_blocks(const sp_cap *cap, const sp_ray *line, double t);
 bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t);
 
 /* inside.c: direction `index` of `count`, spread evenly over the sphere; the line of sight from a point that way. */

@@ -1,158 +1,125 @@
 /* Openings, from the lines that leave the liquid for the sky or for what lies outdoors. Around such a line, from where
  * it starts, directions are tried until something is in the way: its rim. How far apart two opposite sides of it are
- * as they are seen from there is the opening's width, the middle between them its place. Lines that pass each other
- * closely use the same opening.
+ * as they are seen from there is the opening's width, the middle between them its place. Those whose rim is seen whole
+ * are taken first, the best seen before others: lines that pass the same plane in the same clear stretch of it use the
+ * same opening, however far they pass from its place.
  */
-#include "spray/wet/flood_fill.h"
+#include "spray/wet/opening_rim.h"
 
 #include <stdlib.h>
 
 #define MOST_MEASURED 512 /* lines, evenly chosen */
-#define AROUND 8          /* directions about a line */
 #define FLAT 0.25         /* of an opening's width, that its rim may lie off a plane */
-#define STEPS 14          /* of bisection, from 45 degrees */
+#define SQUARE 0.996      /* cosine of 5 degrees: a rim that lies so nearly square to an axis is taken to be */
+#define SLENDER 5         /* how many times its width a rim may reach: the plane through a longer one is not known */
+#define STRETCH 16        /* points of a plane that must be clear between two places for them to be one opening */
 #define SHELTER 4         /* one line in so many may leave from where openings are looked at */
 #define RARE 0.01         /* of the most seen through: openings seen through less are not kept */
 #define SAME_OPENING 0.03 /* of the geometry's diagonal */
+#define LAP 1.05          /* of a cap over the rim that it lies on */
+#define AWAY 1e-3         /* of its radius: so far outside of the rim a cap lies, and not within the wall's contact */
+#define MOST_TRIED 2048   /* lines that stay, evenly chosen */
+#define IN_THE_WAY 0.01   /* of them, that a cap may meet: a belt goes on through its opening */
+#define SHUT 0.95         /* of the lines that leave by an opening, that its cap must meet */
 
-/* Whether a line leaves the liquid; else where it ends in *t. */
-static bool leaves(const sp_flood *flood, const bool *liquid, const sp_ray *line, double *t)
-{
-    sp_hit hit = sp_trace_nearest(flood->tracer, line, sp_v(0, 0, 0));
-    uint32_t met = sp_flood_met(flood, line, &hit);
-    *t = hit.t;
-    return met == SP_SKY || (met < flood->sides && !liquid[met]);
-}
-
-/* Leans a line over until something is in the way. *rim is where that stands; false where nothing is within 45 degrees.
- */
-static bool lean(const sp_flood *flood, const bool *liquid, sp_ray line, sp_vec3 aside, sp_vec3 *rim)
-{
-    sp_vec3 straight = line.velocity;
-    double low = 0, high = 1, t;
-    bool met = false;
-    for (int step = 0; step < STEPS; step++) {
-        double middle = 0.5 * (low + high);
-        line.velocity = sp_along(straight, middle, aside);
-        if (leaves(flood, liquid, &line, &t)) {
-            low = middle;
-        } else {
-            high = middle;
-            *rim = sp_ray_point(&line, sp_v(0, 0, 0), t);
-            met = true;
-        }
-    }
-    return met;
-}
-
-/* What is in the way around a line; points i and i + AROUND / 2 are on opposite sides. */
-typedef struct {
-    sp_vec3 point[AROUND];
-    bool there[AROUND];
-    int count;
-} rim;
-
-static rim find_rim(const sp_flood *flood, const bool *liquid, sp_ray line)
-{
-    sp_vec3 normal = line.velocity, x = sp_unit(sp_cross(fabs(normal.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0), normal));
-    sp_vec3 y = sp_cross(normal, x);
-    rim found = {.count = 0};
-    for (int i = 0; i < AROUND; i++) {
-        double turn = 2 * M_PI * i / AROUND;
-        found.there[i] = lean(flood, liquid, line, sp_along(sp_scale(x, cos(turn)), sin(turn), y), &found.point[i]);
-        found.count += found.there[i];
-    }
-    return found;
-}
-
-/* Whether all of a rim is there and within `off` (m) of one plane (Newell's method). What stands before an opening is
- * no rim of it. */
-static bool is_whole(const rim *rim, double off)
-{
-    sp_vec3 twice = sp_v(0, 0, 0), first = rim->point[0];
-    double least = INFINITY, most = -INFINITY;
-    for (int i = 0; i < AROUND; i++)
-        twice = sp_add(twice, sp_cross(sp_sub(rim->point[i], first), sp_sub(rim->point[(i + 1) % AROUND], first)));
-    for (int i = 0; i < AROUND; i++) {
-        double height = sp_dot(twice, sp_sub(rim->point[i], first));
-        least = fmin(least, height);
-        most = fmax(most, height);
-    }
-    return rim->count == AROUND && most - least <= off * sp_length(twice);
-}
-
-/* An opening as it is seen along one line, or the best of several. */
+/* An opening as it is seen along one line. */
 typedef struct {
     sp_opening opening;
-    bool whole; /* its rim is seen all around: else it may be narrower */
+    sp_ray line;
+    double shown; /* m² of its rim's area, as it is seen along the line; 0: not whole */
 } seen_opening;
 
-/* How wide it is square to the line, which is no more than it is: a tube, too, is as wide as it is seen to be. INFINITY
- * where nothing is in the way on two opposite sides. */
+/* The axis that a direction nearly has, or itself. What stands in a rim turns the plane through it. */
+static sp_vec3 squared(sp_vec3 normal)
+{
+    sp_vec3 axis = sp_v(fabs(normal.x) > SQUARE, fabs(normal.y) > SQUARE, fabs(normal.z) > SQUARE);
+    return sp_length(axis) > 0 ? axis : normal;
+}
+
+/* Where a rim lies, and how wide it is and how far it reaches, unless it is a slit. */
+static void add_rim(seen_opening *seen, const sp_opening_rim *rim)
+{
+    sp_vec3 twice = sp_opening_rim_normal(rim), normal = squared(sp_unit(twice)), outward = seen->line.velocity;
+    sp_opening whole = {.place = sp_opening_rim_middle(rim), .width = sp_opening_rim_width(rim, normal)};
+    whole.normal = sp_dot(normal, outward) > 0 ? normal : sp_sub(sp_v(0, 0, 0), normal); /* without -0 */
+    for (int i = 0; i < SP_RIM_POINTS; i++)
+        whole.radius = fmax(whole.radius, sp_distance(rim->point[i], whole.place));
+    if (whole.radius > SLENDER * whole.width)
+        return;
+    seen->opening = whole;
+    seen->shown = 0.5 * fabs(sp_dot(twice, outward));
+}
+
+/* Where the rim is not seen whole, an opening is as wide as it is square to the line, which is no more than it is: a
+ * tube, too, is as wide as it is seen to be. INFINITY where nothing is in the way on two opposite sides. */
 static seen_opening measure(const sp_flood *flood, const bool *liquid, sp_ray line)
 {
-    rim rim = find_rim(flood, liquid, line);
-    seen_opening found = {.opening.width = INFINITY};
-    for (int i = 0; i < AROUND / 2; i++) {
-        sp_vec3 from = rim.point[i], to = rim.point[i + AROUND / 2];
+    sp_opening_rim rim = sp_opening_rim_find(flood, liquid, line);
+    seen_opening found = {.opening.width = INFINITY, .line = line};
+    for (int i = 0; i < SP_RIM_POINTS / 2; i++) {
+        sp_vec3 from = rim.point[i], to = rim.point[i + SP_RIM_POINTS / 2];
         double width = sp_length(sp_cross(sp_sub(to, from), line.velocity));
-        if (rim.there[i] && rim.there[i + AROUND / 2] && width < found.opening.width)
+        if (rim.there[i] && rim.there[i + SP_RIM_POINTS / 2] && width < found.opening.width)
             found.opening = (sp_opening){.place = sp_scale(sp_add(from, to), 0.5), .width = width};
     }
-    found.whole = is_whole(&rim, FLAT * found.opening.width);
+    if (sp_opening_rim_is_flat(&rim, FLAT * found.opening.width, line.velocity))
+        add_rim(&found, &rim);
     return found;
 }
 
-/* The first of the openings that is the same as another, but for itself; `count` where there is none. */
-static size_t same_as(const seen_opening *openings, size_t count, const seen_opening *other, double same)
+/* Whether nothing is between two points. */
+static bool is_clear(const sp_flood *flood, sp_vec3 from, sp_vec3 to)
 {
-    size_t i = 0;
-    while (i < count &&
-           (&openings[i] == other || sp_distance(openings[i].opening.place, other->opening.place) >
-                                         fmax(same, fmax(openings[i].opening.width, other->opening.width))))
-        i++;
-    return i;
+    sp_ray line = {.origin = from, .velocity = sp_sub(to, from), .t_min = 0, .t_max = 1, .skip = SP_NONE};
+    sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
+    return hit.triangle == SP_NONE && !(flood->setup->cap_count && sp_caps_block(flood->setup, &line, 1));
 }
 
-/* Two views of one opening: what is seen whole counts, and the widest view of it. */
-static void join(seen_opening *known, const seen_opening *other)
+/* Whether a line leaves through a known opening; *through is then where it passes its plane. From the opening's place
+ * to there the plane is clear, and so is the way along it on the liquid's side: beside a wall lie other openings. */
+static bool leaves_through(const sp_flood *flood, const sp_opening *known, const sp_ray *line, sp_vec3 *through)
 {
-    double share = known->opening.share + other->opening.share;
-    if (other->whole > known->whole || (other->whole == known->whole && other->opening.width > known->opening.width))
-        *known = *other;
-    known->opening.share = share;
-}
-
-/* Adds a line's opening to those known, or makes it a new one. */
-static size_t gather(seen_opening *openings, size_t count, size_t most, const seen_opening *found, double same)
-{
-    size_t i = same_as(openings, count, found, same);
-    if (i < count)
-        join(&openings[i], found);
-    else if (count < most)
-        openings[count++] = *found;
-    return count;
-}
-
-/* What has grown since may hold others that were first taken for openings of their own. */
-static size_t join_all(seen_opening *openings, size_t count, double same)
-{
-    for (size_t i = 0; i < count;) {
-        size_t other = same_as(openings, count, &openings[i], same);
-        if (other == count) {
-            i++;
-            continue;
-        }
-        join(&openings[other], &openings[i]);
-        openings[i] = openings[--count];
-        i = 0;
+    double along = sp_dot(line->velocity, known->normal);
+    double t = along > 0 ? sp_dot(sp_sub(known->place, line->origin), known->normal) / along : 0;
+    if (!(t > 0))
+        return false;
+    *through = sp_along(line->origin, t, line->velocity);
+    sp_vec3 inward = sp_scale(known->normal, -FLAT * known->width), way = sp_sub(*through, known->place);
+    bool clear = is_clear(flood, sp_add(known->place, inward), sp_add(*through, inward));
+    for (int i = 1; i <= STRETCH && clear; i++) {
+        sp_vec3 point = sp_along(known->place, (double)i / STRETCH, way);
+        clear = is_clear(flood, sp_add(point, inward), sp_sub(point, inward));
     }
-    return count;
+    return clear;
+}
+
+/* Adds a line's opening to those known, or makes it a new one. A known one reaches as far as lines pass its plane where
+ * they see a rim themselves. */
+static size_t gather(const sp_flood *flood, seen_opening *known, size_t count, const seen_opening *found, double same)
+{
+    for (size_t i = 0; i < count; i++) {
+        sp_opening *opening = &known[i].opening;
+        sp_vec3 through;
+        bool passes = leaves_through(flood, opening, &found->line, &through);
+        if (passes && sp_distance(through, found->opening.place) <= found->opening.width)
+            opening->radius = fmax(opening->radius, sp_distance(through, opening->place));
+        if (passes || sp_distance(opening->place, found->opening.place) <= fmax(same, opening->width)) {
+            opening->share += found->opening.share;
+            return count;
+        }
+    }
+    known[count] = *found;
+    return count + 1;
 }
 
 static bool is_leaving(const bool *liquid, sp_sight_link sight)
 {
     return liquid[sight.from] && (sight.to == SP_SKY || (sight.to != SP_UNTOLD && !liquid[sight.to]));
+}
+
+static bool is_staying(const sp_flood *flood, const bool *liquid, sp_sight_link sight)
+{
+    return liquid[sight.from] && sight.to < flood->sides && liquid[sight.to];
 }
 
 /* Marks sides of which most lines stay. What stands in an opening, or beyond it, sees the outside at large and not the
@@ -168,8 +135,16 @@ static void find_sheltered(const sp_flood *flood, const bool *liquid, uint32_t *
         sheltered[side] = liquid[side] && SHELTER * leaving[side] <= lines[side] + SHELTER;
 }
 
-static size_t measure_leaving(const sp_flood *flood, const bool *liquid, const bool *sheltered, seen_opening *openings,
-                              size_t most)
+/* Those that are best seen first: the whole ones, and then the widest. */
+static int by_rim(const void *left, const void *right)
+{
+    const seen_opening *a = left, *b = right;
+    int order = (a->shown < b->shown) - (a->shown > b->shown);
+    return order ? order : (a->opening.width < b->opening.width) - (a->opening.width > b->opening.width);
+}
+
+/* The openings of lines that leave, at most MOST_MEASURED of them, one each. */
+static size_t measure_leaving(const sp_flood *flood, const bool *liquid, const bool *sheltered, seen_opening *seen)
 {
     size_t leaving = 0, lines = 0, count = 0, next = 0;
     for (size_t i = 0; i < flood->sight_count; i++) {
@@ -177,19 +152,28 @@ static size_t measure_leaving(const sp_flood *flood, const bool *liquid, const b
         leaving += is_leaving(liquid, flood->sights[i]) && sheltered[flood->sights[i].from];
     }
     size_t measured = leaving < MOST_MEASURED ? leaving : MOST_MEASURED;
-    double same = SAME_OPENING / SP_CONTACT * flood->faces->cuts->contact;
     for (size_t i = 0, passed = 0; i < flood->sight_count && next < measured; i++) {
         sp_sight_link sight = flood->sights[i];
         if (!is_leaving(liquid, sight) || !sheltered[sight.from] || passed++ * measured < next * leaving)
             continue;
         next++;
         seen_opening found = measure(flood, liquid, sp_flood_line(flood, sight.from, sight.line));
-        if (!(found.opening.width < INFINITY))
-            continue;
         found.opening.share = (double)leaving / (double)measured / (double)lines;
-        count = gather(openings, count, most, &found, same);
+        if (found.opening.width < INFINITY)
+            seen[count++] = found;
     }
-    return join_all(openings, count, same);
+    return count;
+}
+
+/* Joins what is the same. */
+static size_t join(const sp_flood *flood, seen_opening *seen, size_t count, seen_opening *known)
+{
+    double same = SAME_OPENING / SP_CONTACT * flood->faces->cuts->contact;
+    qsort(seen, count, sizeof *seen, by_rim);
+    size_t known_count = 0;
+    for (size_t i = 0; i < count; i++)
+        known_count = gather(flood, known, known_count, &seen[i], same);
+    return known_count;
 }
 
 static int by_share(const void *left, const void *right)
@@ -199,24 +183,79 @@ static int by_share(const void *left, const void *right)
     return order ? order : (a->opening.width < b->opening.width) - (a->opening.width > b->opening.width);
 }
 
+static void lay_cap(sp_opening *opening)
+{
+    opening->place = sp_along(opening->place, AWAY * opening->radius, opening->normal);
+    opening->radius *= LAP;
+}
+
+static bool is_capped(const sp_opening *opening, const sp_ray *line, double t)
+{
+    sp_cap cap = {.point = opening->place, .normal = opening->normal, .radius = opening->radius};
+    return opening->radius > 0 && sp_cap_blocks(&cap, line, t);
+}
+
+/* How many of the lines that stay meet each cap: *tried of them are tried. */
+static void count_staying(const sp_flood *flood, const bool *liquid, const sp_opening *openings, size_t count,
+                          size_t *met, size_t *tried)
+{
+    size_t staying = 0;
+    for (size_t i = 0; i < flood->sight_count; i++)
+        staying += is_staying(flood, liquid, flood->sights[i]);
+    size_t most = staying < MOST_TRIED ? staying : MOST_TRIED;
+    *tried = 0;
+    for (size_t i = 0, passed = 0; i < flood->sight_count && *tried < most; i++) {
+        if (!is_staying(flood, liquid, flood->sights[i]) || passed++ * most < *tried * staying)
+            continue;
+        ++*tried;
+        sp_ray line = sp_flood_line(flood, flood->sights[i].from, flood->sights[i].line);
+        sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
+        for (size_t j = 0; j < count; j++)
+            met[j] += is_capped(&openings[j], &line, hit.t);
+    }
+}
+
+/* Takes back caps that would part what stays, or let pass what leaves: their plane is not the opening's. Of the lines
+ * that were measured each has the same share. */
+static void try_caps(const sp_flood *flood, const bool *liquid, const seen_opening *seen, size_t seen_count,
+                     sp_opening *openings, size_t count)
+{
+    size_t met[SP_OPENINGS] = {0}, tried;
+    count_staying(flood, liquid, openings, count, met, &tried);
+    for (size_t j = 0; j < count; j++) {
+        double shut = 0;
+        for (size_t i = 0; i < seen_count; i++)
+            shut += is_capped(&openings[j], &seen[i].line, INFINITY) ? seen[i].opening.share : 0;
+        if ((double)met[j] > IN_THE_WAY * (double)tried || shut < SHUT * openings[j].share) {
+            openings[j].normal = sp_v(0, 0, 0);
+            openings[j].radius = 0;
+        }
+    }
+}
+
 bool sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most, size_t *count,
                        sp_error *error)
 {
     uint32_t *lines = calloc(2 * flood->sides + 1, sizeof *lines);
     bool *sheltered = malloc(flood->sides + 1);
-    seen_opening *seen = malloc((most + 1) * sizeof *seen);
-    bool done = lines && sheltered && seen;
+    seen_opening *seen = malloc(MOST_MEASURED * sizeof *seen), *known = malloc(MOST_MEASURED * sizeof *known);
+    bool done = lines && sheltered && seen && known;
     if (done) {
         find_sheltered(flood, liquid, lines, sheltered);
-        *count = measure_leaving(flood, liquid, sheltered, seen, most);
-        qsort(seen, *count, sizeof *seen, by_share); /* the most seen through first */
-        while (*count > 0 && seen[*count - 1].opening.share < RARE * seen[0].opening.share)
-            --*count;
-        for (size_t i = 0; i < *count; i++)
-            openings[i] = seen[i].opening;
+        size_t seen_count = measure_leaving(flood, liquid, sheltered, seen);
+        size_t known_count = join(flood, seen, seen_count, known);
+        qsort(known, known_count, sizeof *known, by_share); /* the most seen through first */
+        for (*count = 0; *count < known_count && *count < most; ++*count) {
+            if (known[*count].opening.share < RARE * known[0].opening.share)
+                break;
+            openings[*count] = known[*count].opening;
+            lay_cap(&openings[*count]);
+        }
+        try_caps(flood, liquid, seen, seen_count, openings, *count);
     }
     free(lines);
     free(sheltered);
     free(seen);
+    free(known);
     return done || sp_fail_memory(error);
 }
