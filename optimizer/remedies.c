@@ -90,7 +90,8 @@ static void mask(remedying *r, uint32_t shadow, sp_partial *partial)
 }
 
 /* The first of the equally good. */
-static void scan_variant(const remedying *r, sp_sweeper *sweeper, uint32_t variant, site_best *best)
+static void scan_variant(const remedying *r, const sp_partial *partial, sp_sweeper *sweeper, uint32_t variant,
+                         site_best *best)
 {
     const sp_candidates *candidates = r->search->candidates;
     uint32_t mount = r->search->sites->items[sweeper->site].mount;
@@ -100,9 +101,11 @@ static void scan_variant(const remedying *r, sp_sweeper *sweeper, uint32_t varia
     double most = sp_sweeper_most(sweeper); /* mounting points see little of one shadow, and soon all of that is wet */
     for (uint32_t a = 0; a < axes && most > best->gain + tie; a++)
         for (uint32_t roll = 0; roll < candidates->variants[variant].roll_count; roll++) {
+            sp_pose pose = {sweeper->site, variant, a, roll};
             double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
+            gain = sp_gain_at(&r->masked, partial, pose, gain);
             if (gain > best->gain + tie)
-                *best = (site_best){{sweeper->site, variant, a, roll}, gain};
+                *best = (site_best){pose, gain};
         }
 }
 
@@ -117,7 +120,7 @@ static void scan_site(remedying *r, const sp_partial *partial, uint32_t site)
         sp_sweeper_look(sweeper, &r->masked, partial, site, s);
         for (uint32_t k = 0; k < candidates->variant_count; k++)
             if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k))
-                scan_variant(r, sweeper, k, &r->best[site]);
+                scan_variant(r, partial, sweeper, k, &r->best[site]);
     }
 }
 

@@ -157,6 +157,10 @@ typedef struct {
 /* A layout of `count` copies of nozzles (NULL: all zero). The types stay borrowed. */
 SP_API sp_layout *sp_layout_create(const sp_nozzle *nozzles, size_t count, sp_error *error);
 SP_API void sp_layout_destroy(sp_layout *layout);
+/* Whether both are of one type, stand in one place and are aimed and set alike, whatever their names. */
+SP_API bool sp_nozzles_spray_alike(const sp_nozzle *a, const sp_nozzle *b);
+/* Whether a nozzle before nozzle i sprays as it does. */
+SP_API bool sp_layout_repeats(const sp_layout *layout, size_t i);
 /* Σ flow, m³/s. */
 SP_API double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
 

@@ -289,8 +289,8 @@ static bool hold(const sp_search *search, const sp_partial *partial, sp_search *
         memcpy(held->kept_film, search->kept_film, count * sizeof(float));
     for (size_t i = 0; i < partial->count; i++)
         if (!sp_type_is_uniform(partial->items[i].nozzle.type))
-            sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), held->kept_hit,
-                              held->kept_film, held->kept_dry);
+            sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose),
+                              partial->items[i].again, held->kept_hit, held->kept_film, held->kept_dry);
     return true;
 }
 

@@ -174,12 +174,14 @@ void sp_footprint_free(sp_footprint *footprint)
     *footprint = (sp_footprint){0};
 }
 
-void sp_footprint_pour(const sp_search *search, const sp_footprint *footprint, float *hit, float *film, float *dry)
+void sp_footprint_pour(const sp_search *search, const sp_footprint *footprint, bool again, float *hit, float *film,
+                       float *dry)
 {
     for (size_t i = 0; i < footprint->count; i++) {
         const sp_print *print = &footprint->prints[i];
         sp_pour(search, print->hit, &hit[print->patch], &dry[print->patch]);
-        sp_pour(search, -print->edge, &hit[print->patch], &dry[print->patch]);
+        if (!again)
+            sp_pour(search, -print->edge, &hit[print->patch], &dry[print->patch]);
         if (film)
             film[print->patch] += print->film;
     }

@@ -22,7 +22,8 @@ typedef struct {
 bool sp_footprint_trace(const sp_search *search, const sp_nozzle *nozzle, sp_footprint *footprint, sp_error *error);
 void sp_footprint_free(sp_footprint *footprint);
 /* Adds it to what hits a search's patches, runs (NULL: film is not asked for) and is dry. */
-void sp_footprint_pour(const sp_search *search, const sp_footprint *footprint, float *hit, float *film, float *dry);
+void sp_footprint_pour(const sp_search *search, const sp_footprint *footprint, bool again, float *hit, float *film,
+                       float *dry);
 /* As a field, which has room for one of hit and edge: of a patch that has both, and is not covered by the hit alone,
  * the edge. */
 void sp_footprint_field(const sp_search *search, const sp_footprint *footprint, float *field);

@@ -1,5 +1,7 @@
 #include "scoring/gain.h"
 
+#include "scoring/footprints.h"
+
 double sp_field_gain(const sp_search *search, const sp_partial *partial, const float *field)
 {
     double gain = 0;
@@ -22,6 +24,40 @@ sp_score sp_field_score(const sp_search *search, const sp_partial *partial, cons
     double sums[2];
     search->sweeps->score(&credit, &wetted, field, field + search->patch_count, sums);
     return (sp_score){sums[0] * search->all, sums[1] * search->all};
+}
+
+/* The worth of a patch after more has come to it, less that before. */
+static double rise(const sp_search *search, const sp_partial *partial, size_t p, float hit, float more_film, float dry)
+{
+    float wet = partial->film ? fmaxf(hit, partial->film[p] + more_film) : hit;
+    return (double)(search->area[p] *
+                    (sp_worth(search, wet, dry) - sp_worth(search, partial->wet[p], partial->dry[p])));
+}
+
+/* What one more adds that sprays as this one does. */
+static double repeat_gain(const sp_search *search, const sp_partial *partial, const sp_placed *item)
+{
+    double gain = 0;
+    const sp_footprint *footprint =
+        sp_type_is_uniform(item->nozzle.type) ? NULL : sp_footprints_look(search->footprints, item->pose);
+    for (size_t i = 0; footprint && i < footprint->count; i++) {
+        const sp_print *print = &footprint->prints[i];
+        float hit = partial->hit[print->patch], dry = partial->dry[print->patch];
+        sp_pour(search, print->hit, &hit, &dry);
+        gain += rise(search, partial, print->patch, hit, print->film, dry);
+    }
+    for (size_t p = 0; !footprint && p < search->patch_count; p++) {
+        float hit = partial->hit[p], dry = partial->dry[p];
+        sp_pour(search, sp_without_edge(item->field[p]), &hit, &dry);
+        gain += rise(search, partial, p, hit, partial->film ? item->field[search->patch_count + p] : 0, dry);
+    }
+    return gain * search->all;
+}
+
+double sp_gain_at(const sp_search *search, const sp_partial *partial, sp_pose pose, double gain)
+{
+    const sp_placed *there = gain > 0 ? sp_partial_at(partial, pose) : NULL;
+    return there ? repeat_gain(search, partial, there) : gain;
 }
 
 sp_score sp_footprint_score(const sp_search *search, const sp_partial *partial, const sp_footprint *footprint)

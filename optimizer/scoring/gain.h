@@ -16,6 +16,9 @@ sp_score sp_field_score(const sp_search *search, const sp_partial *partial, cons
 /* What it gains, whatever is asked for. */
 double sp_field_gain(const sp_search *search, const sp_partial *partial, const float *field);
 
+/* What one more nozzle in a pose adds: `gain`, which its field or footprint would, unless one stands there already. */
+double sp_gain_at(const sp_search *search, const sp_partial *partial, sp_pose pose, double gain);
+
 /* What a footprint adds to a partial layout. */
 sp_score sp_footprint_score(const sp_search *search, const sp_partial *partial, const sp_footprint *footprint);
 

@@ -9,19 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool repeats(const sp_partial *partial, size_t i)
+{
+    bool found = false;
+    for (size_t earlier = 0; earlier < i && !found; earlier++)
+        found = sp_nozzles_spray_alike(&partial->items[earlier].nozzle, &partial->items[i].nozzle);
+    return found;
+}
+
 /* Adds item i to what hits and runs, and to what is dry. */
 static void pour_item(const sp_search *search, sp_partial *partial, size_t i)
 {
+    bool again = partial->items[i].again = repeats(partial, i);
     const float *field = partial->items[i].field, *more = field + search->patch_count;
     float *restrict hit = partial->hit, *restrict dry = partial->dry, *restrict film = partial->film;
     partial->flow += partial->items[i].flow;
     partial->outlay += sp_placed_outlay(search, &partial->items[i]);
     if (!sp_type_is_uniform(partial->items[i].nozzle.type)) {
-        sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), hit, film, dry);
+        sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), again, hit, film,
+                          dry);
         return;
     }
-    for (size_t p = 0; p < search->patch_count; p++)
+    for (size_t p = 0; p < search->patch_count && !again; p++)
         sp_pour(search, field[p], &hit[p], &dry[p]);
+    for (size_t p = 0; p < search->patch_count && again; p++)
+        sp_pour(search, sp_without_edge(field[p]), &hit[p], &dry[p]);
     for (size_t p = 0; film && p < search->patch_count; p++)
         film[p] += more[p];
 }
@@ -62,7 +74,8 @@ static void refresh_patch(const sp_search *search, sp_partial *partial, size_t p
         partial->film[p] = search->kept_film[p];
     for (size_t i = 0; i < partial->count; i++) {
         const float *field = partial->items[i].field;
-        sp_pour(search, field[p], &partial->hit[p], &partial->dry[p]);
+        float value = partial->items[i].again ? sp_without_edge(field[p]) : field[p];
+        sp_pour(search, value, &partial->hit[p], &partial->dry[p]);
         if (partial->film)
             partial->film[p] += field[search->patch_count + p];
     }
@@ -77,6 +90,8 @@ static void refresh_without(const sp_search *search, sp_partial *partial, const 
         sp_partial_refresh(search, partial);
         return;
     }
+    for (size_t i = 0; i < partial->count; i++)
+        partial->items[i].again = repeats(partial, i);
     for (size_t p = 0; p < search->patch_count; p++)
         if (taken->field[p] != 0 || (film && film[p] != 0))
             refresh_patch(search, partial, p);
@@ -227,4 +242,15 @@ bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, ui
     for (size_t i = 0; capacity <= partial->count && i < partial->count; i++)
         there += partial->items[i].site.mount == mount;
     return there < capacity && sp_number_allows(search, partial->count);
+}
+
+const sp_placed *sp_partial_at(const sp_partial *partial, sp_pose pose)
+{
+    for (size_t i = 0; i < partial->count; i++) {
+        const sp_placed *item = &partial->items[i];
+        if (item->pose.site == pose.site && item->pose.variant == pose.variant && item->pose.axis == pose.axis &&
+            item->pose.roll == pose.roll && sp_nozzles_spray_alike(&item->nozzle, &item->origin))
+            return item;
+    }
+    return NULL;
 }

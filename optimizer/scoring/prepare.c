@@ -46,7 +46,7 @@ static bool keep(sp_search *search, const sp_nozzle *nozzle, sp_error *error)
                                  sp_port_holds(&search->options->mounts[m], nozzle->position, tolerance);
     bool done = sp_footprint_trace(search, nozzle, &footprint, error);
     if (done)
-        sp_footprint_pour(search, &footprint, search->kept_hit, search->kept_film, search->kept_dry);
+        sp_footprint_pour(search, &footprint, false, search->kept_hit, search->kept_film, search->kept_dry);
     sp_footprint_free(&footprint);
     return done;
 }

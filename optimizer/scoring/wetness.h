@@ -30,6 +30,11 @@ static inline void sp_pour(const sp_search *search, float field, float *hit, flo
     *dry *= edge;
     *hit = !search->single ? sum : more > *hit ? more : *hit;
 }
+/* The field value of a nozzle that repeats another: its edges lie where the other's do, and count once. */
+static inline float sp_without_edge(float field)
+{
+    return field > 0 ? field : 0;
+}
 /* The share of a patch that is covered. */
 static inline float sp_covered(float wet, float dry)
 {

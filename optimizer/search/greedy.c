@@ -97,7 +97,8 @@ static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
 
 /* Scores one site's poses of a variant but those that cannot beat `least`, a merit that some pose of this round has.
  * The sweeper takes the variant where that is needed. */
-static void scan_variant(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t variant, size_t number, double least)
+static void scan_variant(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *sweeper, uint32_t variant,
+                         size_t number, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     const sp_variant *own = &candidates->variants[variant];
@@ -116,7 +117,8 @@ static void scan_variant(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t varian
             taken = true;
             sp_score score = sp_sweeper_score(sweeper, a, r, rise_least(&rise));
             rounds->room[number] = (float)score.room;
-            rise_note(&rise, (sp_pose){sweeper->site, variant, a, r}, score.gain, rounds->tie);
+            sp_pose pose = {sweeper->site, variant, a, r};
+            rise_note(&rise, pose, sp_gain_at(rounds->search, partial, pose, score.gain), rounds->tie);
         }
     if (rise.count)
         *best = (sp_round_best){rise.step[0].pose, rise.step[0].gain / price, rise.step[0].gain};
@@ -136,7 +138,7 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
             if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget))
-                scan_variant(rounds, sweeper, (uint32_t)k, number, least);
+                scan_variant(rounds, partial, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
     }
@@ -165,7 +167,8 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
             !sp_partial_has_place(search, partial, mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, partial, best->pose, 0).gain;
+        double gain =
+            sp_gain_at(search, partial, best->pose, sp_score_pose(sweeper, search, partial, best->pose, 0).gain);
         least = fmax(least, gain / sp_merit_price(search, &best->pose, rounds->power));
     }
     return least;

@@ -272,7 +272,9 @@ bool sp_pool_best(const sp_search *search, sp_pool_gains *gains, const sp_partia
     double merit = 0, tie = SP_SCORE_TIE * search->all;
     *gain = 0;
     for (size_t i = 0; i < gains->pool->count; i++)
-        gains->score[i] = allowed(search, partial, poses[i], budget) ? shares[i] * search->all : 0;
+        gains->score[i] = allowed(search, partial, poses[i], budget)
+                              ? sp_gain_at(search, partial, poses[i], shares[i] * search->all)
+                              : 0;
     if (!share_scores(search, gains, error))
         return false;
     for (size_t i = 0; i < gains->pool->count; i++)

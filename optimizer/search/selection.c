@@ -52,13 +52,27 @@ static void count_covered(sp_selection *selection)
     selection->covered *= selection->matrix->search->all;
 }
 
-static void pour(sp_selection *selection, uint32_t row)
+/* Whether a row is among the first `count` of the selection: its edges count once. */
+static bool is_taken(const sp_selection *selection, size_t count, size_t row)
+{
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++)
+        found = selection->row[i] == row;
+    return found;
+}
+
+/* Pours row i of the selection. */
+static void pour(sp_selection *selection, size_t number)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
+    uint32_t row = selection->row[number];
+    bool again = is_taken(selection, number, row);
     selection->flow += sp_coverage_matrix_flow(matrix, row);
     selection->outlay += sp_coverage_matrix_outlay(matrix, row);
-    for (size_t i = matrix->start[row]; i < matrix->start[row + 1]; i++)
-        sp_pour(matrix->search, matrix->field[i], &selection->hit[matrix->patch[i]], &selection->dry[matrix->patch[i]]);
+    for (size_t i = matrix->start[row]; i < matrix->start[row + 1]; i++) {
+        float field = again ? sp_without_edge(matrix->field[i]) : matrix->field[i];
+        sp_pour(matrix->search, field, &selection->hit[matrix->patch[i]], &selection->dry[matrix->patch[i]]);
+    }
     for (size_t i = matrix->start[row]; matrix->film && i < matrix->start[row + 1]; i++) {
         uint32_t p = matrix->patch[i];
         selection->film[p] += matrix->film[i];
@@ -79,7 +93,7 @@ static void set_rows(sp_selection *selection, const uint32_t *rows, size_t count
     selection->count = count;
     for (size_t i = 0; i < count; i++) {
         selection->row[i] = rows[i];
-        pour(selection, rows[i]);
+        pour(selection, i);
     }
     count_covered(selection);
 }
@@ -96,7 +110,7 @@ void sp_selection_add(sp_selection *selection, uint32_t row)
 {
     assert(selection->count < SP_SELECTION_MOST && row < selection->matrix->row_count);
     selection->row[selection->count++] = row;
-    pour(selection, row);
+    pour(selection, selection->count - 1);
     count_covered(selection);
 }
 
@@ -141,15 +155,16 @@ static double gain_of(const sp_selection *selection, size_t row, float credit)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
     double gain = 0;
+    bool again = is_taken(selection, selection->count, row);
     for (size_t i = matrix->start[row]; i < matrix->start[row + 1]; i++) {
         uint32_t p = matrix->patch[i];
+        float field = again ? sp_without_edge(matrix->field[i]) : matrix->field[i];
         if (selection->wet[p] >= SP_ENOUGH)
             continue;
         bool single = matrix->search->single;
         float worth = matrix->film
-                          ? sp_more_worth_of_both(single, credit, left_at(selection, credit, p), matrix->field[i],
-                                                  matrix->film[i])
-                          : sp_more_worth(single, credit, selection->wet[p], selection->dry[p], matrix->field[i]);
+                          ? sp_more_worth_of_both(single, credit, left_at(selection, credit, p), field, matrix->film[i])
+                          : sp_more_worth(single, credit, selection->wet[p], selection->dry[p], field);
         gain += (double)(matrix->area[p] * worth);
     }
     return gain * matrix->search->all;
@@ -208,8 +223,12 @@ static sp_selection_answer find_best(sp_selection *selection, double power, floa
     for (size_t r = 0; r < matrix->row_count; r++) {
         bool fits = gains[r] > NOISE && affords(selection, r, budget) && has_place(selection, r);
         selection->score[r] = fits ? gains[r] : 0;
-        merit = fmax(merit, selection->score[r] / price_of(matrix, r, power));
     }
+    for (size_t i = 0; i < selection->count; i++)
+        if (selection->score[selection->row[i]] > 0)
+            selection->score[selection->row[i]] = gain_of(selection, selection->row[i], credit) / matrix->search->all;
+    for (size_t r = 0; r < matrix->row_count; r++)
+        merit = fmax(merit, selection->score[r] / price_of(matrix, r, power));
     for (size_t r = 0; merit > 0 && r < matrix->row_count; r++)
         if (selection->score[r] > 0 && selection->score[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power))
             return (sp_selection_answer){(uint32_t)r, selection->score[r] * matrix->search->all};

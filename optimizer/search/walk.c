@@ -58,6 +58,7 @@ static void look(sp_walker *walker, uint32_t site, uint32_t variant, double powe
         sp_pose pose = {site, variant, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double least = fmax(GAIN_LEAST * walker->area, best->merit * price);
         double gain = sp_score_pose(walker->sweeper, walker->search, walker->partial, pose, least).gain;
+        gain = sp_gain_at(walker->search, walker->partial, pose, gain);
         if (gain > GAIN_LEAST * walker->area && (gain - SP_SCORE_TIE * walker->area) / price > best->merit)
             *best = (sp_walk_choice){pose, gain / price};
     }

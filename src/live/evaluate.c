@@ -52,7 +52,7 @@ bool sp_live_nozzle_on(sp_live *live, size_t index, sp_nozzle *nozzle)
     return index < handed_over(live) && is_on(live, index) && read_nozzle(live, index, nozzle);
 }
 
-static void add_patch(const sp_live *live, const sp_deposits *alone, sp_deposits *all, size_t i)
+static void add_patch(const sp_live *live, const sp_deposits *alone, bool again, sp_deposits *all, size_t i)
 {
     bool single = sp_evaluator_setup(live->evaluator)->criterion.combine == SP_COMBINE_SINGLE;
     all->flux[i] += alone->flux[i];
@@ -60,7 +60,8 @@ static void add_patch(const sp_live *live, const sp_deposits *alone, sp_deposits
     all->incidence[i] += alone->incidence[i];
     all->impact[i] += alone->impact[i];
     all->even[i] = single ? fmax(all->even[i], alone->even[i]) : all->even[i] + alone->even[i];
-    all->dry[i] *= alone->dry[i];
+    if (!again)
+        all->dry[i] *= alone->dry[i];
 }
 
 static void stand_for(sp_deposits *all, size_t i, size_t standing)
@@ -73,13 +74,24 @@ static void stand_for(sp_deposits *all, size_t i, size_t standing)
     all->dry[i] = all->dry[standing];
 }
 
+/* Whether a nozzle before this one, and on, sprays as it does. */
+static bool repeats(const sp_live *live, size_t n)
+{
+    bool found = false;
+    for (size_t i = 0; i < n && !found; i++)
+        found = is_on(live, i) && sp_nozzles_spray_alike(&live->nozzles[i].nozzle, &live->nozzles[n].nozzle);
+    return found;
+}
+
 static void add_up(sp_live *live, unsigned stride)
 {
     sp_deposits *all = &live->coverage->deposits;
-    for (size_t n = 0; n < live->nozzle_count; n++)
+    for (size_t n = 0; n < live->nozzle_count; n++) {
+        bool again = is_on(live, n) && repeats(live, n);
         for (size_t i = 0; is_on(live, n) && i < all->count; i++)
             if (stride == 1 || live->sample.among[i])
-                add_patch(live, &live->nozzles[n].alone->deposits, all, i);
+                add_patch(live, &live->nozzles[n].alone->deposits, again, all, i);
+    }
     for (size_t i = 0; stride > 1 && i < all->count; i++)
         stand_for(all, i, live->sample.standing[i]);
     sp_coverage_judge(live->evaluator, live->coverage);

@@ -137,11 +137,7 @@ bool sp_live_prepare(sp_live *live, size_t index)
 static bool is_laid(const sp_live_nozzle *kept, const sp_nozzle *nozzle, unsigned stride)
 {
     const sp_nozzle *old = &kept->nozzle;
-    return kept->laid && (kept->stride == 1 || kept->stride == stride) && old->type == nozzle->type &&
-           !memcmp(&old->position, &nozzle->position, sizeof old->position) &&
-           !memcmp(&old->axis, &nozzle->axis, sizeof old->axis) && old->roll == nozzle->roll &&
-           old->pressure == nozzle->pressure && old->angle == nozzle->angle && old->flow == nozzle->flow &&
-           old->speed == nozzle->speed;
+    return kept->laid && (kept->stride == 1 || kept->stride == stride) && sp_nozzles_spray_alike(old, nozzle);
 }
 
 bool sp_live_lay(sp_live *live, sp_live_nozzle *kept, const sp_nozzle *nozzle, unsigned stride)

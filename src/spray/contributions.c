@@ -3,6 +3,7 @@
 #include "spray/state/state.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* What decides whether a patch is covered, of each nozzle alone: as sp_deposits, [nozzles][patches]. */
 typedef struct {
@@ -10,6 +11,7 @@ typedef struct {
     size_t count, patches;
     double *even, *dry;
     double *film; /* NULL where the criterion does not ask for it */
+    bool *edges;  /* [nozzles], whether its edges count, of those that are looked at: no other repeats it */
 } shares;
 
 static bool shares_create(const sp_evaluator *evaluator, size_t count, shares *each, sp_error *error)
@@ -21,8 +23,9 @@ static bool shares_create(const sp_evaluator *evaluator, size_t count, shares *e
                      .patches = patches,
                      .even = malloc(room * sizeof *each->even),
                      .dry = malloc(room * sizeof *each->dry),
-                     .film = film ? malloc(room * sizeof *each->film) : NULL};
-    return (each->even && each->dry && (each->film || !film)) || sp_fail_memory(error);
+                     .film = film ? malloc(room * sizeof *each->film) : NULL,
+                     .edges = malloc(count + 1)};
+    return (each->even && each->dry && (each->film || !film) && each->edges) || sp_fail_memory(error);
 }
 
 static void shares_free(shares *each)
@@ -30,6 +33,7 @@ static void shares_free(shares *each)
     free(each->even);
     free(each->dry);
     free(each->film);
+    free(each->edges);
 }
 
 static void keep(const sp_coverage *alone, size_t nozzle, shares *each, sp_contributions *made)
@@ -77,10 +81,25 @@ static double share_without(const shares *each, size_t nozzle, size_t patch)
             continue;
         bool single = criterion->combine == SP_COMBINE_SINGLE;
         others.even = single ? fmax(others.even, each->even[at]) : others.even + each->even[at];
-        others.dry *= each->dry[at];
+        if (each->edges[i])
+            others.dry *= each->dry[at];
         film += each->film ? each->film[at] : 0;
     }
     return each->film && film >= criterion->film ? 1 : sp_wetting_share(&others, criterion->flux);
+}
+
+/* Whose edges count without a nozzle: of those that repeat each other one's. */
+static bool find_edges(const sp_layout *layout, size_t nozzle, shares *each, sp_error *error)
+{
+    sp_layout *others = sp_layout_create(layout->nozzles, layout->count, error);
+    if (!others)
+        return false;
+    others->count--;
+    memmove(&others->nozzles[nozzle], &others->nozzles[nozzle + 1], (others->count - nozzle) * sizeof *others->nozzles);
+    for (size_t i = 0; i < others->count; i++)
+        each->edges[i < nozzle ? i : i + 1] = !sp_layout_repeats(others, i);
+    sp_layout_destroy(others);
+    return true;
 }
 
 /* Nothing is lost where it brings nothing that counts. */
@@ -111,8 +130,10 @@ sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const s
     bool done = shares_create(evaluator, made->count, &each, error) &&
                 ((made->alone && made->lost && made->flux) || sp_fail_memory(error)) &&
                 evaluate_alone(layout, coverage, &each, made, error);
-    for (size_t i = 0; done && i < made->count; i++)
-        made->lost[i] = lost_without(&each, i, coverage);
+    for (size_t i = 0; done && i < made->count; i++) {
+        done = find_edges(layout, i, &each, error);
+        made->lost[i] = done ? lost_without(&each, i, coverage) : 0;
+    }
     shares_free(&each);
     if (done)
         return made;

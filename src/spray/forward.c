@@ -248,6 +248,7 @@ static bool fly_bodies(jet_flight *flight, const sp_bodies *bodies, sp_error *er
     for (size_t n = 0; n < patterns->count; n++)
         all += (double)pattern_jets(flight, &patterns->nozzles[n]);
     for (size_t b = 0; b < bodies->layout->count; b++) {
+        sp_tally_begin_nozzle(&flight->tally, bodies->layout, b);
         for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
             if (!fly_pattern(flight, &patterns->nozzles[n], &done, all, error))
                 return false;

@@ -63,6 +63,7 @@ static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, s
                        sp_error *error)
 {
     for (size_t b = 0; b < bodies->layout->count; b++) {
+        sp_tally_begin_nozzle(tally, bodies->layout, b);
         for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
             sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);

@@ -10,7 +10,7 @@ static bool is_single(const sp_tally *tally)
 
 bool sp_tally_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_tally *tally, sp_error *error)
 {
-    *tally = (sp_tally){evaluator, deposits, deposits->counted, deposits->even};
+    *tally = (sp_tally){evaluator, deposits, false, deposits->counted, deposits->even};
     if (!is_single(tally))
         return true;
     tally->counted = calloc(deposits->count + 1, sizeof *tally->counted);
@@ -33,7 +33,13 @@ void sp_tally_add(sp_tally *tally, uint32_t patch, double counted, const sp_wett
     assert(counted >= 0 && settled.even >= 0 && settled.dry >= 0 && settled.dry <= 1);
     tally->counted[patch] += counted;
     tally->even[patch] += settled.even;
-    tally->deposits->dry[patch] *= settled.dry;
+    if (!tally->repeats)
+        tally->deposits->dry[patch] *= settled.dry;
+}
+
+void sp_tally_begin_nozzle(sp_tally *tally, const sp_layout *layout, size_t i)
+{
+    tally->repeats = sp_layout_repeats(layout, i);
 }
 
 void sp_tally_end_nozzle(sp_tally *tally)

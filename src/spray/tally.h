@@ -7,6 +7,7 @@
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
+    bool repeats;           /* the nozzle in hand repeats one before it, whose edges count */
     double *counted, *even; /* [patches], m³/s per m²: of all nozzles so far, or where one alone must do, of the one in
                              * hand with all its patterns */
 } sp_tally;
@@ -16,6 +17,8 @@ bool sp_tally_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_ta
 void sp_tally_free(sp_tally *tally);
 /* Adds to what the criterion counts what one pattern brings to a patch: flux, m³/s per m², and where it falls. */
 void sp_tally_add(sp_tally *tally, uint32_t patch, double counted, const sp_wetting *wetting);
+/* Takes nozzle i of a layout in hand. */
+void sp_tally_begin_nozzle(sp_tally *tally, const sp_layout *layout, size_t i);
 /* All patterns of the nozzle in hand are added. */
 void sp_tally_end_nozzle(sp_tally *tally);
 

@@ -113,16 +113,30 @@ static inline void recount_know(recount *r, recount_choice *choice)
     sp_layout_destroy(layout);
 }
 
-static inline void recount_pour(recount *r, recount_choice *choice)
+/* `again`: another that sprays as it does is poured already, whose edges lie in the same place. */
+static inline void recount_pour(recount *r, const recount_choice *choice, bool again)
 {
     bool single = r->scene->room.setup.criterion.combine == SP_COMBINE_SINGLE;
     for (size_t i = 0; i < choice->count; i++) {
         const recount_mark *mark = &choice->marks[i];
         double *even = &r->even[mark->patch];
         *even = single ? fmax(*even, mark->even) : *even + mark->even;
-        r->dry[mark->patch] *= mark->dry;
+        if (!again)
+            r->dry[mark->patch] *= mark->dry;
         r->film[mark->patch] += mark->film;
     }
+}
+
+/* Whether item i of a layout sprays as a kept nozzle or an item before it. */
+static inline bool recount_repeats(const recount *r, const recount_layout *layout, size_t i)
+{
+    const sp_nozzle *own = &r->choices[layout->item[i]].nozzle;
+    bool found = false;
+    for (size_t k = 0; k < r->scene->kept_count; k++)
+        found = found || sp_nozzles_spray_alike(&r->kept[k].nozzle, own);
+    for (size_t k = 0; k < i; k++)
+        found = found || sp_nozzles_spray_alike(&r->choices[layout->item[k]].nozzle, own);
+    return found;
 }
 
 /* The area that a layout covers, kept nozzles included, m². */
@@ -143,9 +157,9 @@ static inline double recount_area(recount *r, const recount_layout *layout)
         r->film[p] = 0;
     }
     for (size_t i = 0; i < r->scene->kept_count; i++)
-        recount_pour(r, &r->kept[i]);
+        recount_pour(r, &r->kept[i], false);
     for (size_t i = 0; i < layout->count; i++)
-        recount_pour(r, &r->choices[layout->item[i]]);
+        recount_pour(r, &r->choices[layout->item[i]], recount_repeats(r, layout, i));
     for (size_t p = 0; p < r->patches->count; p++)
         area += criterion->film > 0 && r->film[p] >= criterion->film
                     ? r->patches->area[p]
