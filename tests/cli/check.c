@@ -71,6 +71,22 @@ static void check_tells_of_mounts_that_take_no_nozzle(void **state)
     json_decref(object);
 }
 
+/* The second of three is the first again, the third is turned. */
+static void check_tells_of_nozzles_that_are_there_twice(void **state)
+{
+    (void)state;
+    write_room_with(
+        "twice.yaml", "axis: [0, 0, -1], pressure: 2 bar}\n",
+        "axis: [0, 0, -1], pressure: 2 bar}\n"
+        "  - {name: again, type: cone, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -2], pressure: 2 bar}\n"
+        "  - {name: other, type: cone, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -1], roll: 5 deg, "
+        "pressure: 2 bar}\n");
+    json_t *object = expect_json("check twice.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), 1);
+    assert_non_null(strstr(json_string_value(json_array_get(warnings, 0)), "nozzle \"again\""));
+    json_decref(object);
+}
+
 static void check_reports_the_cavity(void **state)
 {
     (void)state;
@@ -117,6 +133,7 @@ int main(void)
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),
+        cmocka_unit_test(check_tells_of_nozzles_that_are_there_twice),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(check_says_where_liquid_stands),
     };

@@ -125,6 +125,9 @@ static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
         sp_error error = {0};
         if (!cli_admits(found->opened, &layout->nozzles[i], &error))
             warn(found, "%s", error.message);
+        if (sp_layout_repeats(layout, i))
+            warn(found, "nozzle \"%s\": one before it is of the same type, in the same place and aimed alike",
+                 layout->nozzles[i].name);
         if (error.kind == SP_ERROR_MEMORY)
             return sp_fail_memory(failure);
     }
