@@ -264,6 +264,12 @@ static void look_away(outlook *o)
     sp_sites_free(&o->sites);
 }
 
+#ifdef SPRAYPLAN_SANITIZE
+#define MEMORY_TEXEL 0.14
+#else
+#define MEMORY_TEXEL 0.1
+#endif
+
 /* Little memory means more work, not another answer, of two threads neither; and too little is an error. */
 static void little_memory_is_enough(void **state)
 {
@@ -276,7 +282,7 @@ static void little_memory_is_enough(void **state)
     j.mount.tilt = 20 * DEGREE;
     j.options.max_nozzles = 2;
     j.options.refine = sp_place_options_default().refine;
-    job_run_coarse(&j, 0.1);
+    job_run_coarse(&j, MEMORY_TEXEL);
     sp_proposal *first = j.proposal;
     outlook plenty, scarce;
     look_around(&j, &plenty);
@@ -317,7 +323,7 @@ static void views_keep_within_memory(void **state)
     j.mount.to = sp_v(2, 2, HEIGHT);
     j.mount.spacing = 0.5;
     j.mount.tilt = 30 * DEGREE;
-    job_run_coarse(&j, 0.1);
+    job_run_coarse(&j, MEMORY_TEXEL);
     outlook plenty;
     look_around(&j, &plenty);
     size_t views = plenty.sites.count, kept[3] = {views, views, views};
