@@ -2,7 +2,7 @@
 #ifndef CLI_OPENINGS_H
 #define CLI_OPENINGS_H
 
-#include "sprayplan/evaluator.h"
+#include <sprayplan/evaluator.h>
 
 #include <jansson.h>
 #include <stdbool.h>
