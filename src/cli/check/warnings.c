@@ -103,7 +103,7 @@ static void warn_of_openings(cli_findings *found)
     warn(
         found,
         "cavity: %.4g m2 of surface under the sky are seen through openings, and left out; see openings, and shut with "
-        "a lid or one of their caps what is shut in use",
+        "a lid or `caps:` what is shut in use",
         outdoors);
 }
 
