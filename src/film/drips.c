@@ -68,7 +68,7 @@ static bool is_tip(surroundings *own, uint32_t cell)
     const sp_film_links *links = own->links;
     const sp_vec3 *point = own->surface->cells->point, down = own->surface->down;
     double length = own->surface->cells->length[cell], facing = sp_dot(links->facing[cell], down) / length;
-    double low = sp_dot(point[cell], down);
+    double low = sp_dot(point[cell], down) + SP_FILM_FLAT * length; /* what is level with it is no lower */
     if (facing < -SP_FILM_FLAT)
         return false;
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)

@@ -34,7 +34,7 @@ typedef struct {
     uint8_t *way;       /* [links] */
     uint32_t *waits;    /* [cells], for how many that it runs to and that have no rank yet */
     uint8_t *state;     /* [cells] */
-    sp_heap heap, late; /* level, whether sunk, cell; those that wait for others have come into the second */
+    sp_heap heap, late; /* level, whether still, cell; those that wait for others have come into the second */
     sp_film_order *order;
 } flood;
 
@@ -43,18 +43,47 @@ static double height_of(const sp_film_surface *surface, uint32_t cell)
     return -sp_dot(surface->cells->point[cell], surface->down);
 }
 
-/* Heights as numbers, rounded so that what differs by round-off is level. */
-static void measure_heights(flood *own)
+/* All cells by height, the lowest first, with keys that hold a double's digits; NULL where memory ran out. */
+static uint32_t *list_by_height(const flood *own, double low, double high)
+{
+    size_t count = own->links->count;
+    uint64_t *keys = malloc((count + 1) * sizeof *keys);
+    uint32_t *rising = malloc((count + 1) * sizeof *rising);
+    for (uint32_t i = 0; keys && i < count; i++)
+        keys[i] = (uint64_t)((height_of(own->surface, i) - low) / (high - low) * 0x1p60);
+    bool done = keys && rising && (count == 0 || sp_order_by_key(keys, count, rising));
+    free(keys);
+    if (done)
+        return rising;
+    free(rising);
+    return NULL;
+}
+
+/* Heights as numbers, the same for all within a step of the lowest of them: what differs by round-off is level. To
+ * round each by itself would part a level that lies where numbers change. */
+static bool measure_heights(flood *own)
 {
     size_t count = own->links->count;
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         low = sp_lesser(low, height_of(own->surface, i));
         high = sp_greater(high, height_of(own->surface, i));
+        own->height[i] = 0;
     }
     own->step = LEVEL * (high - low);
-    for (uint32_t i = 0; i < count; i++)
-        own->height[i] = own->step > 0 ? (uint32_t)((height_of(own->surface, i) - low) / own->step + 0.5) : 0;
+    if (!(own->step > 0))
+        return true;
+    uint32_t *rising = list_by_height(own, low, high);
+    bool done = rising;
+    double lowest = low;
+    for (size_t i = 0; done && i < count; i++) {
+        double height = height_of(own->surface, rising[i]);
+        if (height > lowest + own->step)
+            lowest = height;
+        own->height[rising[i]] = (uint32_t)((lowest - low) / own->step);
+    }
+    free(rising);
+    return done;
 }
 
 /* Turns the ends round: which cells end at each. */
@@ -103,10 +132,21 @@ static void count_waits(flood *own)
     }
 }
 
+/* True where liquid stands on the cell, or lies on a flat. */
+static bool is_still(const flood *own, uint32_t cell)
+{
+    const sp_film_links *links = own->links;
+    bool still = true;
+    for (size_t k = links->start[cell]; still && k < links->start[cell + 1]; k++)
+        still = own->way[k] != TO;
+    return still || own->order->sunk[cell];
+}
+
+/* Of cells at one level those that run on come first: a pool among them runs over to all of these. */
 static uint64_t key_of(const flood *own, uint32_t cell)
 {
     assert(own->level[cell] >> 31 == 0);
-    return (uint64_t)own->level[cell] << 33 | (uint64_t)own->order->sunk[cell] << 32 | cell;
+    return (uint64_t)own->level[cell] << 33 | (uint64_t)is_still(own, cell) << 32 | cell;
 }
 
 static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
@@ -314,8 +354,8 @@ bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *l
 {
     flood own = {.surface = surface, .links = links, .ends = ends, .order = order};
     bool done = allocate(&own, order, links->count + 1), again = done;
+    done = done && measure_heights(&own);
     if (done) {
-        measure_heights(&own);
         list_fed(&own);
         direct(&own);
     }

@@ -186,6 +186,101 @@ static void pan_runs_over_its_rim(void **state)
     walls_close(&w);
 }
 
+static double most_film(const walls *w, region within)
+{
+    double most = 0;
+    for (size_t i = 0; i < w->cells->count; i++)
+        if (region_holds(&within, w, i))
+            most = fmax(most, w->per_width[i]);
+    return most;
+}
+
+/* A cube hung in the room, its top level, on which liquid falls in the middle: by all four sides runs a quarter of it,
+ * evenly down to the level underside, however texels lie about the edges. */
+static void a_level_top_runs_over_on_all_sides(void **state)
+{
+    (void)state;
+    static const sp_vec3 sides[4] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
+    for (double texel = 0.02; texel < 0.046; texel += 0.005) {
+        shape s = room_with_hole(0.1);
+        shape_part(&s, "cube");
+        /* low + (high - low) is high: its sides share their vertices */
+        shape_box(&s, sp_v(-0.4, -0.4, -0.1), sp_v(0.4, 0.4, -0.1 + 0.4), false);
+        walls w;
+        walls_open(&w, shape_mesh(&s), SP_CAVITY_POINT, sp_v(0.1, 0.2, 0.8), texel);
+        walls_rain(&w, (region){{-0.2, -0.2, 0.25}, {0.2, 0.2, 0.35}, {0, 0, 1}}, LAID);
+        assert_ends(&w, 1, 0, 0, 1e-12);
+        for (int i = 0; i < 4; i++) {
+            double aside = 0.32, even = w.all / 3.2;
+            region side = {{-0.41, -0.41, 0}, {0.41, 0.41, 0.2}, sides[i]}, low = side;
+            assert_near("a side", mean_film(&w, side), even, 0.08);
+            /* to its lower edge, away from the others */
+            low.low = sp_v(fabs(sides[i].x) > 0 ? -0.41 : -aside, fabs(sides[i].y) > 0 ? -0.41 : -aside, -0.11);
+            low.high = sp_v(fabs(sides[i].x) > 0 ? 0.41 : aside, fabs(sides[i].y) > 0 ? 0.41 : aside, 0);
+            assert_true(most_film(&w, low) < 1.2 * even);
+        }
+        walls_close(&w);
+    }
+}
+
+/* A box, corner by corner: bit 0 of a corner's number is x, bit 1 y, bit 2 z. */
+static void corner_box(shape *s, sp_vec3 low, sp_vec3 high, const uint8_t (*triangles)[3])
+{
+    sp_vec3 corner[8];
+    for (int i = 0; i < 8; i++)
+        corner[i] = sp_v(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    for (int i = 0; i < 12; i++)
+        shape_triangle(s, corner[triangles[i][0]], corner[triangles[i][1]], corner[triangles[i][2]]);
+}
+
+/* About the edges of a level underside some cells go round the edge: where these are level with each other but for
+ * round-off, none of them sends its liquid along to the next. */
+static void film_drips_off_a_level_underside_where_it_comes(void **state)
+{
+    (void)state;
+    static const uint8_t inwards[12][3] = {{3, 2, 0}, {1, 3, 0}, {7, 5, 4}, {6, 7, 4}, {5, 1, 0}, {4, 5, 0},
+                                           {7, 6, 2}, {3, 7, 2}, {6, 4, 0}, {2, 6, 0}, {7, 3, 1}, {5, 7, 1}};
+    static const uint8_t outwards[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    shape s = shape_create();
+    shape_part(&s, "room");
+    corner_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), inwards);
+    shape_part(&s, "ledge");
+    corner_box(&s, sp_v(0.7, 0.3, 0.3), sp_v(1.2, 0.7, 0.5), outwards);
+    walls w;
+    sp_error error = {0};
+    sp_setup setup = walls_setup(&w, shape_mesh(&s), SP_CAVITY_POINT, sp_v(0.2, 0.5, 0.5), 0.01);
+    setup.criterion.film = 3e-3 / 60;
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    assert_string_equal(error.message, "");
+    const sp_nozzle_type cone = {.pattern = SP_PATTERN_FULL_CONE,
+                                 .angle = M_PI / 3,
+                                 .flow = 4.757e-3 / 60,
+                                 .at = 5e4,
+                                 .exponent = 0.46,
+                                 .cv = 1};
+    sp_layout layout = {.count = 1,
+                        .nozzles = (sp_nozzle[]){
+                            {.type = &cone, .position = sp_v(0.3, 0.5, 0.8), .axis = sp_v(1, 0, 0), .pressure = 5e4}}};
+    sp_coverage *coverage = sp_evaluate_inverse(evaluator, &layout, &error);
+    assert_non_null(coverage);
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    double above = 0, lowest = 0;
+    for (size_t i = 0; i < patches->count; i++) {
+        sp_vec3 p = patches->point[i];
+        if (patches->normal[i].x > -0.9 || p.x < 0.69 || p.x > 0.71 || p.y < 0.33 || p.y > 0.67 || p.z > 0.4)
+            continue;
+        double *most = p.z < 0.31 ? &lowest : &above;
+        *most = fmax(*most, coverage->deposits.film[i]);
+    }
+    assert_true(above > 0);
+    if (!(lowest < 1.2 * above))
+        fail_msg("%g m2/s in the lowest row, %g above", lowest, above);
+    sp_coverage_destroy(coverage);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(w.mesh);
+}
+
 /* A tank open at its top, deeper than a twentieth of all: it stands there till somebody opens its drain. */
 static void deep_tank_holds(void **state)
 {
@@ -283,6 +378,8 @@ int main(void)
         cmocka_unit_test(closed_box_holds_all),
         cmocka_unit_test(hole_in_the_floor_drains_all),
         cmocka_unit_test(pan_runs_over_its_rim),
+        cmocka_unit_test(a_level_top_runs_over_on_all_sides),
+        cmocka_unit_test(film_drips_off_a_level_underside_where_it_comes),
         cmocka_unit_test(deep_tank_holds),
         cmocka_unit_test(triangles_may_face_either_way),
         cmocka_unit_test(film_crosses_what_is_not_cleaned),
