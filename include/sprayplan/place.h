@@ -142,7 +142,7 @@ typedef struct {
     uint64_t jets;
     double coverage;   /* by the jets, as a fraction: what is hit, without film */
     double difference; /* that less the inverse evaluation's, points as a fraction */
-    double tolerance;  /* the accuracy asked for, or what so many jets can tell where that is more */
+    double tolerance;  /* the accuracy asked for, or half a point where that is more */
     bool agrees;       /* the difference is no more than that */
 } sp_forward_check;
 
