@@ -43,20 +43,26 @@ static double height_of(const sp_film_surface *surface, uint32_t cell)
     return -sp_dot(surface->cells->point[cell], surface->down);
 }
 
-/* All cells by height, the lowest first, with keys that hold a double's digits; NULL where memory ran out. */
-static uint32_t *list_by_height(const flood *own, double low, double high)
+/* All cells in the order of their keys, which are freed; NULL where memory ran out, or had for the keys. */
+static uint32_t *list_by_keys(uint64_t *keys, size_t count)
 {
-    size_t count = own->links->count;
-    uint64_t *keys = malloc((count + 1) * sizeof *keys);
     uint32_t *rising = malloc((count + 1) * sizeof *rising);
-    for (uint32_t i = 0; keys && i < count; i++)
-        keys[i] = (uint64_t)((height_of(own->surface, i) - low) / (high - low) * 0x1p60);
     bool done = keys && rising && (count == 0 || sp_order_by_key(keys, count, rising));
     free(keys);
     if (done)
         return rising;
     free(rising);
     return NULL;
+}
+
+/* All cells by height, the lowest first, with keys that hold a double's digits. */
+static uint32_t *list_by_height(const flood *own, double low, double high)
+{
+    size_t count = own->links->count;
+    uint64_t *keys = malloc((count + 1) * sizeof *keys);
+    for (uint32_t i = 0; keys && i < count; i++)
+        keys[i] = (uint64_t)((height_of(own->surface, i) - low) / (high - low) * 0x1p60);
+    return list_by_keys(keys, count);
 }
 
 /* Heights as numbers, the same for all within a step of the lowest of them: what differs by round-off is level. To
@@ -232,15 +238,9 @@ static uint32_t *list_rising(const flood *own)
 {
     size_t count = own->links->count;
     uint64_t *keys = malloc((count + 1) * sizeof *keys);
-    uint32_t *rising = malloc((count + 1) * sizeof *rising);
     for (size_t i = 0; keys && i < count; i++)
         keys[i] = own->height[i];
-    bool done = keys && rising && (count == 0 || sp_order_by_key(keys, count, rising));
-    free(keys);
-    if (done)
-        return rising;
-    free(rising);
-    return NULL;
+    return list_by_keys(keys, count);
 }
 
 /* Liquid stands at the lowest cell of what has no end. */
