@@ -16,9 +16,7 @@
 #endif
 #define PIXELS_OF_MANY (PIXELS / 3 * 2) /* each, from the fifth design on */
 
-#define SMALLER 4 /* pictures that tell how long the others take */
-#define GROWTH                                                                                                         \
-    1.75 /* of that with the edge: the finer they are, the more of their way have neighbouring rays in common */
+#define SMALLER 4 /* of pictures that tell how long the others take, by edge; and others half as large */
 
 #define LOOK_GREY (SP_LOOK_NOTHING - 1)
 
@@ -89,7 +87,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     return true;
 }
 
-/* What is traced once serves all designs in a row that share an evaluator. */
+/* What is found once serves all designs in a row that share an evaluator. */
 static bool add_view(const sp_page *page, sp_text *text, const sp_viewpoint *viewpoint, int full, int pixels,
                      const sp_listed_shadows *shadows, sp_error *error)
 {
@@ -181,9 +179,9 @@ static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error
     return done;
 }
 
-/* What one view takes, s: whatever its size, to trace it, and of each design to paint and pack it. */
+/* What one view takes, s: whatever its size, to find what it shows, and of each design to paint and pack it. */
 typedef struct {
-    double layers, tracing, painting;
+    double layers, showing, painting;
 } view_time;
 
 /* One view of a design, drawn and thrown away. */
@@ -200,16 +198,22 @@ static bool try_view(const sp_result *result, const sp_design *design, int pixel
     double laid = sp_now();
     done =
         done && sp_shot_create(&shot, design->evaluator, &camera, scale.style.wireframe, look_at_patch, &layers, error);
-    double traced = sp_now();
+    double shown = sp_now();
     uint8_t *drawn = done ? sp_shot_picture(&shot, colour_patch, &by, error) : NULL;
     uint8_t *bytes = drawn ? sp_image_encode_webp(drawn, shot.width, shot.height, &size, error) : NULL;
-    *taken = (view_time){laid - start, traced - laid, sp_now() - traced};
+    *taken = (view_time){laid - start, shown - laid, sp_now() - shown};
     done = bytes != NULL;
     free(bytes);
     free(drawn);
     sp_shot_free(&shot);
     sp_layers_free(&layers);
     return done;
+}
+
+/* By what it takes at two sizes: one part grows with the area, the other, which is of triangles, does not. */
+static double at_full_size(double smaller, double half_of_it)
+{
+    return smaller + (SMALLER * SMALLER - 1) / 0.75 * fmax(smaller - half_of_it, 0);
 }
 
 bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *error)
@@ -219,9 +223,12 @@ bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *
     for (size_t i = 0; i < result->design_count; ++i)
         if (result->designs[i].evaluator && !drawn++)
             first = &result->designs[i];
-    view_time one = {0};
-    bool done = !first || try_view(result, first, full_size(drawn) / SMALLER, &one, error);
-    *seconds = SP_VIEWPOINTS * (one.layers + pow(SMALLER, GROWTH) * (one.tracing + (double)drawn * one.painting));
+    int pixels = full_size(drawn) / SMALLER;
+    view_time half = {0}, one = {0};
+    bool done =
+        !first || (try_view(result, first, pixels / 2, &half, error) && try_view(result, first, pixels, &one, error));
+    *seconds = SP_VIEWPOINTS * (one.layers + at_full_size(one.showing, half.showing) +
+                                (double)drawn * at_full_size(one.painting, half.painting));
     return done;
 }
 

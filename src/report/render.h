@@ -1,15 +1,10 @@
-/* Pictures of the vessel by our own tracer. */
+/* Pictures of the vessel. */
 #ifndef REPORT_RENDER_H
 #define REPORT_RENDER_H
 
-#include "camera.h"
+#include "depth_buffer.h"
 
-/* What is seen at a point of the surface from its front or back: a number that a colour is known for, or
- * SP_LOOK_NOTHING where it is looked through. */
-#define SP_LOOK_NOTHING SP_NONE
-typedef uint32_t sp_look_at(const void *user, uint32_t triangle, double u, double v, int back);
-
-/* What is seen through every quarter of every pixel; traced once, coloured as often as is wanted. */
+/* What is seen through every quarter of every pixel; found once, coloured as often as is wanted. */
 typedef struct {
     uint32_t look;
     float shade; /* brightness, 0 to 1 */
