@@ -18,6 +18,9 @@
 /* How liquid runs between a cell and another beside it. */
 enum { NONE, TO, FROM };
 
+#define NO_CREST UINT32_MAX
+#define HIGHEST 2e9 /* of heights as numbers, whose keys have room for 31 bits */
+
 /* How far the flood has come with a cell. */
 enum { DRY, REACHED, LATE, RANKED };
 
@@ -25,7 +28,7 @@ typedef struct {
     const sp_film_surface *surface;
     const sp_film_links *links;
     const uint32_t *ends;
-    double step;        /* m */
+    double low, step;   /* m: where heights count from, and the height of 1 */
     uint32_t *height;   /* [cells], above the lowest, in steps: 1 / LEVEL at most */
     uint32_t *level;    /* [cells], the same, that liquid has to rise to */
     uint32_t *fed;      /* [cells], one of the cells that end there, SP_NONE for none */
@@ -34,6 +37,7 @@ typedef struct {
     uint8_t *way;       /* [links] */
     uint32_t *waits;    /* [cells], for how many that it runs to and that have no rank yet */
     uint8_t *state;     /* [cells] */
+    uint32_t *crest;    /* [cells], the lowest free edge that leads to the sheet's other side; NO_CREST */
     sp_heap heap, late; /* level, whether still, cell; those that wait for others have come into the second */
     sp_film_order *order;
 } flood;
@@ -76,6 +80,7 @@ static bool measure_heights(flood *own)
         high = sp_greater(high, height_of(own->surface, i));
         own->height[i] = 0;
     }
+    own->low = low;
     own->step = LEVEL * (high - low);
     if (!(own->step > 0))
         return true;
@@ -90,6 +95,23 @@ static bool measure_heights(flood *own)
     }
     free(rising);
     return done;
+}
+
+/* Of the free edge that a link leads over; a little below it is round-off. */
+static uint32_t crest_of(const flood *own, const sp_film_link *link)
+{
+    return own->step > 0 ? (uint32_t)fmin(HIGHEST, fmax(0, (link->crest - own->low) / own->step)) : 0;
+}
+
+static void find_crests(flood *own)
+{
+    const sp_film_links *links = own->links;
+    for (uint32_t i = 0; i < links->count; i++) {
+        own->crest[i] = NO_CREST;
+        for (size_t k = links->start[i]; k < links->start[i + 1]; k++)
+            if (sp_film_is_over_rim(&links->links[k]) && crest_of(own, &links->links[k]) < own->crest[i])
+                own->crest[i] = crest_of(own, &links->links[k]);
+    }
 }
 
 /* Turns the ends round: which cells end at each. */
@@ -155,15 +177,42 @@ static uint64_t key_of(const flood *own, uint32_t cell)
     return (uint64_t)own->level[cell] << 33 | (uint64_t)is_still(own, cell) << 32 | cell;
 }
 
-static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
+static void take(flood *own, uint32_t cell, uint32_t from, uint32_t level)
 {
-    if (own->state[cell] != DRY)
-        return true;
     own->state[cell] = REACHED;
     own->order->parent[cell] = from;
     bool sunk = own->order->sunk[cell] = level > own->height[cell];
     own->level[cell] = sunk ? level : own->height[cell];
+}
+
+static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
+{
+    if (own->state[cell] != DRY)
+        return true;
+    take(own, cell, from, level);
     return sp_heap_push(&own->heap, key_of(own, cell));
+}
+
+/* Over a free edge to the other side of a sheet. Other ways there, which may be lower, are open until its turn. */
+static bool reach_over(flood *own, uint32_t cell, size_t k)
+{
+    uint32_t level = crest_of(own, &own->links->links[k]), other = own->links->to[k];
+    if (own->state[other] != DRY)
+        return true;
+    level = level > own->level[cell] ? level : own->level[cell];
+    return sp_heap_push(&own->heap, (uint64_t)level << 33 | (uint64_t)1 << 32 | other);
+}
+
+/* Of a cell that no other way led to before its turn. */
+static void come_over(flood *own, uint32_t cell, uint32_t level)
+{
+    const sp_film_links *links = own->links;
+    size_t k = links->start[cell];
+    while (!sp_film_is_over_rim(&links->links[k]) || own->state[links->to[k]] != RANKED)
+        k++;
+    assert(k < links->start[cell + 1]);
+    take(own, cell, links->to[k], level);
+    own->order->over[cell] = true;
 }
 
 /* True where all that the cell runs to has its rank and lies in no hollow: then it lies in none, whatever its point. */
@@ -181,12 +230,33 @@ static bool runs_on(const flood *own, uint32_t cell)
     return any;
 }
 
+/* Behind a free edge liquid stands as high as in what the cell runs to; less than the edge where it leaves elsewhere.
+ */
+static void sink_behind(flood *own, uint32_t cell)
+{
+    const sp_film_links *links = own->links;
+    uint32_t level = own->height[cell];
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
+        if (own->way[k] != TO)
+            continue;
+        if (own->state[links->to[k]] != RANKED)
+            return;
+        if (own->order->sunk[links->to[k]] && own->level[links->to[k]] > level)
+            level = own->level[links->to[k]];
+    }
+    own->level[cell] = level;
+    own->order->sunk[cell] = level > own->height[cell];
+    own->order->over[cell] = level + 1 >= own->crest[cell];
+}
+
 /* Gives the cell its rank, and goes on to those beside it: what has waited for it alone waits no more. */
 static bool settle(flood *own, uint32_t cell, uint32_t *rank)
 {
     const sp_film_links *links = own->links;
     own->state[cell] = RANKED;
     own->order->rank[cell] = (*rank)++;
+    if (own->order->over[cell])
+        sink_behind(own, cell);
     if (own->order->sunk[cell] && runs_on(own, cell)) {
         own->order->sunk[cell] = false;
         own->level[cell] = own->height[cell];
@@ -199,7 +269,8 @@ static bool settle(flood *own, uint32_t cell, uint32_t *rank)
         if (own->state[other] == LATE && ready)
             done = sp_heap_push(&own->heap, key_of(own, other));
         else if (!links->drips[other])
-            done = reach(own, other, cell, own->level[cell]);
+            done = sp_film_is_over_rim(&links->links[k]) ? reach_over(own, cell, k)
+                                                         : reach(own, other, cell, own->level[cell]);
     }
     for (uint32_t fed = own->fed[cell]; done && fed != SP_NONE; fed = own->fed_too[fed])
         done = reach(own, fed, cell, own->level[cell]);
@@ -223,7 +294,11 @@ static bool spread(flood *own, uint32_t *rank)
     while (own->heap.count || own->late.count) {
         bool late = is_late(own);
         uint64_t key = sp_heap_pop(late ? &own->late : &own->heap);
-        uint32_t cell = (uint32_t)key;
+        uint32_t cell = (uint32_t)key, level = (uint32_t)(key >> 33);
+        if (own->state[cell] == DRY)
+            come_over(own, cell, level);
+        else if (level != own->level[cell])
+            continue; /* another way led there */
         bool waits = !late && own->waits[cell] > 0;
         if (waits)
             own->state[cell] = LATE;
@@ -268,6 +343,7 @@ static bool fill(flood *own)
     size_t count = own->links->count;
     uint32_t rank = 0;
     memset(own->state, DRY, count);
+    memset(own->order->over, 0, count);
     count_waits(own);
     for (uint32_t i = 0; i < count; i++)
         if ((own->order->held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&
@@ -290,7 +366,7 @@ static void join_hollows(flood *own)
         own->hollow[i] = i;
     for (uint32_t i = 0; i < links->count; i++)
         for (size_t k = links->start[i]; sunk[i] && k < links->start[i + 1]; k++)
-            if (sunk[links->to[k]])
+            if (sunk[links->to[k]] && !sp_film_is_over_rim(&links->links[k]))
                 sp_set_join(own->hollow, i, links->to[k]);
 }
 
@@ -322,7 +398,8 @@ static bool allocate(flood *own, sp_film_order *order, size_t room)
     *order = (sp_film_order){.rank = malloc(room * sizeof *order->rank),
                              .parent = malloc(room * sizeof *order->parent),
                              .sunk = calloc(room, sizeof *order->sunk),
-                             .held = calloc(room, sizeof *order->held)};
+                             .held = calloc(room, sizeof *order->held),
+                             .over = calloc(room, sizeof *order->over)};
     own->height = malloc(room * sizeof *own->height);
     own->level = malloc(room * sizeof *own->level);
     own->fed = malloc(room * sizeof *own->fed);
@@ -331,8 +408,9 @@ static bool allocate(flood *own, sp_film_order *order, size_t room)
     own->way = malloc(own->links->start[own->links->count] + 1);
     own->waits = malloc(room * sizeof *own->waits);
     own->state = malloc(room * sizeof *own->state);
-    return order->rank && order->parent && order->sunk && order->held && own->height && own->level && own->fed &&
-           own->fed_too && own->hollow && own->way && own->waits && own->state;
+    own->crest = malloc(room * sizeof *own->crest);
+    return order->rank && order->parent && order->sunk && order->held && order->over && own->height && own->level &&
+           own->fed && own->fed_too && own->hollow && own->way && own->waits && own->state && own->crest;
 }
 
 static void flood_free(flood *own)
@@ -345,6 +423,7 @@ static void flood_free(flood *own)
     free(own->way);
     free(own->waits);
     free(own->state);
+    free(own->crest);
     free(own->heap.keys);
     free(own->late.keys);
 }
@@ -356,6 +435,7 @@ bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *l
     bool done = allocate(&own, order, links->count + 1), again = done;
     done = done && measure_heights(&own);
     if (done) {
+        find_crests(&own);
         list_fed(&own);
         direct(&own);
     }
@@ -374,5 +454,6 @@ void sp_film_order_free(sp_film_order *order)
     free(order->parent);
     free(order->sunk);
     free(order->held);
+    free(order->over);
     *order = (sp_film_order){0};
 }

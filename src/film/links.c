@@ -2,6 +2,7 @@
 
 #include "atlas/texels/borders.h"
 #include "mesh/grow.h"
+#include "mesh/lesser.h"
 
 #include <assert.h>
 #include <math.h>
@@ -11,7 +12,7 @@
 /* A piece of a border between two cells, the lower number first, or several, and what runs out of each. */
 typedef struct {
     uint32_t cell[2];
-    double across[2], length;
+    double across[2], length, crest;
 } piece;
 
 enum { RECENT = 4096 };
@@ -59,13 +60,14 @@ static bool take_piece(gathering *own, piece met)
 {
     assert(met.cell[0] != met.cell[1] && met.length >= 0);
     if (met.cell[0] > met.cell[1])
-        met = (piece){{met.cell[1], met.cell[0]}, {met.across[1], met.across[0]}, met.length};
+        met = (piece){{met.cell[1], met.cell[0]}, {met.across[1], met.across[0]}, met.length, met.crest};
     uint32_t *recent = &own->recent[(met.cell[0] * 31 + met.cell[1]) % RECENT];
     piece *same = *recent < own->count ? &own->pieces[*recent] : NULL;
     if (same && same->cell[0] == met.cell[0] && same->cell[1] == met.cell[1]) {
         same->across[0] += met.across[0];
         same->across[1] += met.across[1];
         same->length += met.length;
+        same->crest = sp_lesser(same->crest, met.crest);
         return true;
     }
     if (!sp_grow(&own->pieces, &own->capacity, own->count + 1, sizeof *own->pieces))
@@ -77,13 +79,43 @@ static bool take_piece(gathering *own, piece met)
     return true;
 }
 
+/* True where the edge of a sheet, both of whose sides are wet, lies no lower than what is beside it: film does not get
+ * there, but what stands behind it runs over. */
+static bool is_rim(const gathering *own, const sp_border *border)
+{
+    const uint32_t *sides = own->surface->cell_of[border->texel[0]];
+    sp_vec3 tangent = own->tangents[border->triangle[0]], outward = border->outward[0];
+    return border->texel[1] == SP_NONE && sides[0] != SP_NONE && sides[1] != SP_NONE && sp_length(tangent) > 0 &&
+           sp_dot(tangent, outward) <= SP_FILM_FLAT * sp_length(outward);
+}
+
+/* What a border of that length makes a side of a triangle weigh in the way that the cell faces. */
+static void face(const gathering *own, uint32_t cell, unsigned side, uint32_t triangle, double length)
+{
+    sp_vec3 *facing = &own->links->facing[cell];
+    *facing = sp_along(*facing, side ? -length : length, own->normals[triangle]);
+}
+
+/* From one side of a sheet to the other. */
+static bool take_rim(gathering *own, const sp_border *border)
+{
+    const uint32_t *sides = own->surface->cell_of[border->texel[0]];
+    sp_vec3 down = own->surface->down;
+    double across = sp_lesser(0, sp_dot(own->tangents[border->triangle[0]], border->outward[0]));
+    double crest = -sp_greater(sp_dot(border->at[0], down), sp_dot(border->at[1], down));
+    double length = sp_length(border->outward[0]);
+    for (unsigned side = 0; side < 2; side++)
+        face(own, sides[side], side, border->triangle[0], length);
+    return take_piece(own, (piece){{sides[0], sides[1]}, {across, across}, length, crest});
+}
+
 /* On one side of the surface; what lies beyond may be dry. */
 static bool take_side(gathering *own, const sp_border *border, unsigned side)
 {
     const uint32_t(*cell_of)[2] = own->surface->cell_of;
     sp_film_links *links = own->links;
     unsigned sides[2] = {side, side ^ border->turned};
-    piece met = {.cell = {cell_of[border->texel[0]][sides[0]], SP_NONE}};
+    piece met = {.cell = {cell_of[border->texel[0]][sides[0]], SP_NONE}, .crest = SP_FILM_NO_CREST};
     if (border->texel[1] != SP_NONE)
         met.cell[1] = cell_of[border->texel[1]][sides[1]];
     if (met.cell[0] == met.cell[1])
@@ -95,8 +127,7 @@ static bool take_side(gathering *own, const sp_border *border, unsigned side)
         if (cell == SP_NONE)
             continue;
         met.across[k] = sp_dot(own->tangents[triangle], border->outward[k]);
-        double length = sides[k] ? -met.length : met.length;
-        links->facing[cell] = sp_along(links->facing[cell], length, own->normals[triangle]);
+        face(own, cell, sides[k], triangle, met.length);
         if (ends)
             take_end(links, cell, met.across[k], met.length, border->outward[k]);
     }
@@ -105,6 +136,8 @@ static bool take_side(gathering *own, const sp_border *border, unsigned side)
 
 static bool take_border(void *user, const sp_border *border)
 {
+    if (is_rim(user, border))
+        return take_rim(user, border);
     return (!border->on_front || take_side(user, border, 0)) && (!border->on_back || take_side(user, border, 1));
 }
 
@@ -148,7 +181,7 @@ static way *list_ways(const gathering *own)
         for (int k = 0; k < 2; k++) {
             const piece *met = &own->pieces[i];
             ways[start[met->cell[k] + 1]++] =
-                (way){{met->across[k], met->across[1 - k], met->length}, met->cell[1 - k]};
+                (way){{met->across[k], met->across[1 - k], met->length, met->crest}, met->cell[1 - k]};
         }
     return ways;
 }
@@ -164,6 +197,7 @@ static size_t take_way(sp_film_links *links, size_t first, size_t end, const way
         links->links[at].across += way->link.across;
         links->links[at].into += way->link.into;
         links->links[at].length += way->link.length;
+        links->links[at].crest = sp_lesser(links->links[at].crest, way->link.crest);
         return end;
     }
     memmove(&links->to[at + 1], &links->to[at], (end - at) * sizeof *links->to);

@@ -4,7 +4,8 @@
 
 #include "film/film_surface.h"
 
-#define SP_FILM_FLAT 1e-3   /* sine of the slope: less is level, as geometry in single precision tells it */
+#define SP_FILM_FLAT 1e-3 /* sine of the slope: less is level, as geometry in single precision tells it */
+#define SP_FILM_NO_CREST (-INFINITY)
 #define SP_FILM_ACROSS 1e-9 /* of a cell's edge: less across the flow is round-off */
 
 /* From one cell to another, over all their common border. */
@@ -12,6 +13,8 @@ typedef struct {
     double across; /* m, Σ t·b: what runs out over the border, above 0, or may run in from beyond */
     double into;   /* m, the same, of what runs in from there */
     double length; /* m */
+    double crest;  /* m, height of the free edge of a sheet over which it leads to the sheet's other side, above which
+                    * liquid has to stand; SP_FILM_NO_CREST */
 } sp_film_link;
 
 typedef struct {
@@ -29,6 +32,11 @@ typedef struct {
 
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);
 void sp_film_links_free(sp_film_links *links);
+
+static inline bool sp_film_is_over_rim(const sp_film_link *link)
+{
+    return link->crest > SP_FILM_NO_CREST;
+}
 
 /* Unit vector in the plane with that normal (unit) along which gravity pulls; 0 where the plane is level. */
 sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down);

@@ -37,7 +37,7 @@ bool sp_film_basins_create(const sp_film_surface *surface, const sp_film_links *
     }
     for (uint32_t i = 0; done && i < count; i++)
         for (size_t k = links->start[i]; basins->pooled[i] && k < links->start[i + 1]; k++)
-            if (basins->pooled[links->to[k]])
+            if (basins->pooled[links->to[k]] && !sp_film_is_over_rim(&links->links[k]))
                 sp_set_join(sets, i, links->to[k]);
     for (uint32_t i = 0; done && i < count; i++) {
         uint32_t *lowest = &first[sp_set_root(sets, i)];

@@ -68,7 +68,9 @@ static bool share_rim(sharing *own, uint32_t cell)
     size_t before = own->shares->count;
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++)
-        done = own->basins->of[links->to[k]] == pool || share(own, pool, links->to[k], links->links[k].length);
+        done = own->basins->of[links->to[k]] == pool ||
+               (sp_film_is_over_rim(&links->links[k]) && !own->order->over[cell]) ||
+               share(own, pool, links->to[k], links->links[k].length);
     done = done && share(own, pool, own->ends[cell], links->end_length[cell]);
     for (size_t i = before; i < own->shares->count; i++)
         own->shares->width[pool] += own->shares->items[i].width;

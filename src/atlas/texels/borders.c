@@ -114,6 +114,12 @@ static int by_angle(const void *left, const void *right)
     return (a->half_edge > b->half_edge) - (a->half_edge < b->half_edge);
 }
 
+static sp_vec3 point_on(const sp_mesh *mesh, uint32_t half_edge, double part)
+{
+    sp_vec3 from = mesh->vertices[sp_half_edge_from(mesh, half_edge)];
+    return sp_along(from, part, sp_sub(mesh->vertices[sp_half_edge_to(mesh, half_edge)], from));
+}
+
 static sp_vec3 step_of(const sp_mesh *mesh, uint32_t half_edge)
 {
     return sp_sub(mesh->vertices[sp_half_edge_to(mesh, half_edge)], mesh->vertices[sp_half_edge_from(mesh, half_edge)]);
@@ -170,6 +176,10 @@ static bool visit_piece(const fold *f, sp_border border)
     border.triangle[1] = f->b / 3;
     border.outward[0] = sp_scale(f->out_of_a, part);
     border.outward[1] = sp_scale(f->out_of_b, part);
+    if (ends) {
+        border.at[0] = point_on(f->walk->mesh, f->a, edge->from);
+        border.at[1] = point_on(f->walk->mesh, f->a, edge->to);
+    }
     return f->walk->visit(f->walk->user, &border);
 }
 

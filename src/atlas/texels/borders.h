@@ -8,6 +8,7 @@
 typedef struct {
     uint32_t texel[2];    /* that share it; the second SP_NONE where the surface ends */
     uint32_t triangle[2]; /* in whose plane it lies, to either */
+    sp_vec3 at[2];        /* m, from where to where it runs; only where the surface ends */
     sp_vec3 outward[2]; /* m, as long as the border: out of either texel, across the border, in its triangle's plane */
     bool on_front, on_back; /* of the first texel's triangle: on which sides of the surface the texels share it */
     bool turned;            /* the front goes on in the back */
