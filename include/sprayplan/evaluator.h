@@ -144,7 +144,7 @@ SP_API bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *
 /* In how many positions goods that move are looked at on their pass; 1 where nothing moves. */
 SP_API size_t sp_evaluator_positions(const sp_evaluator *evaluator);
 /* True where no surface but that of part `own` (SP_NONE: no exception) comes nearer to the point than `clearance` (m),
- * of goods that move at any time of their pass. */
+ * of goods that move at any time of their pass; and none at all so near that a nozzle there stands in it. */
 SP_API bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own);
 /* What pulls at liquid that leaves so, or (NULL) of a type without a trajectory of its own: m/s², zero along lines. */
 SP_API sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch);

@@ -30,10 +30,16 @@ static bool is_out_of_the_way(const sp_evaluator *evaluator, sp_vec3 point, doub
                                   sp_sub(point, sweep->to), clearance);
 }
 
+static double touch(const sp_evaluator *evaluator)
+{
+    return TOUCH * sp_distance(evaluator->low, evaluator->high);
+}
+
 bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own)
 {
-    return sp_tracer_is_clear(standing(evaluator), point, clearance, own) &&
-           is_out_of_the_way(evaluator, point, clearance);
+    return sp_tracer_is_clear(standing(evaluator), point, touch(evaluator), SP_NONE) &&
+           sp_tracer_is_clear(standing(evaluator), point, clearance, own) &&
+           is_out_of_the_way(evaluator, point, fmax(clearance, touch(evaluator)));
 }
 
 /* Where liquid leaves a nozzle. */
@@ -41,14 +47,13 @@ static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp
 {
     const sp_tracer *tracer = standing(evaluator);
     sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
-    double touch = TOUCH * sp_distance(evaluator->low, evaluator->high);
-    if (!is_out_of_the_way(evaluator, p, touch))
+    if (!is_out_of_the_way(evaluator, p, touch(evaluator)))
         return sp_fail(
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in the way of the goods of the sweep; expected a place "
             "that they pass by",
             exit->name, told.x, told.y, told.z);
-    if (!sp_tracer_is_clear(tracer, p, touch, SP_NONE)) {
+    if (!sp_tracer_is_clear(tracer, p, touch(evaluator), SP_NONE)) {
         const sp_mesh *mesh = sp_tracer_mesh(tracer);
         uint32_t triangle = sp_tracer_nearest_triangle(tracer, SP_NONE, p);
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -54,6 +54,7 @@ static sp_proposal *place_moved(job *j, double most)
 {
     sp_proposal *proposal = job_place(j);
     double farthest = 0;
+    sp_error error = {0};
     assert_int_equal(proposal->layout->count, 1);
     for (size_t i = 0; i < proposal->layout->count; i++) {
         const sp_nozzle *nozzle = &proposal->layout->nozzles[i];
@@ -61,6 +62,8 @@ static sp_proposal *place_moved(job *j, double most)
         farthest = fmax(farthest, way);
         if (clear < j->options.clearance - ROUNDING)
             fail_msg("%s is %g m from a wall, expected at least %g m", nozzle->name, clear, j->options.clearance);
+        if (!sp_evaluator_admits(j->room.evaluator, nozzle, &error))
+            fail_msg("%s", error.message);
         if (way > most + ROUNDING)
             fail_msg("%s was moved by %g m, expected at most %g m", nozzle->name, way, most);
     }
@@ -89,11 +92,11 @@ static void nozzles_moved_along_a_line_stay_clear(void **state)
 static void nozzles_moved_along_a_lid_stay_clear(void **state)
 {
     (void)state;
-    const double limits[] = {-1, 0.06};
+    const double limits[] = {-1, 0.06, -1}, clearances[] = {0.15, 0.15, 0};
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         job j;
         sp_mount mount = {.kind = SP_MOUNT_SURFACE, .part = 1, .spacing = 0.4, .standoff = STANDOFF};
-        open_job(&j, mount, 0.15);
+        open_job(&j, mount, clearances[i]);
         j.options.refine.position = limits[i];
         sp_proposal *proposal = place_moved(&j, limits[i] < 0 ? 0.2 : limits[i]);
         for (size_t n = 0; n < proposal->layout->count; n++)
