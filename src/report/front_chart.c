@@ -118,7 +118,8 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t 
     }
 }
 
-/* What is proved that no layout exceeds, at the prices of the front. */
+/* What is proved that no layout exceeds: of a price the bound at the point to its right, up to the last of them. A
+ * point's own says nothing of what costs more. */
 static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
     const sp_proposal *proposal = front_of(page, design);
@@ -129,9 +130,11 @@ static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t 
     sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
         double y = y_of(a, fmin(100, 100 * proposal->front[i].bound / proposal->certificate.whole));
-        sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].outlay), y);
+        if (i == 0)
+            sp_text_add(text, "M%d %.1f", LEFT, y);
+        sp_text_add(text, "V%.1fH%.1f", y, x_of(a, 6e4 * proposal->front[i].outlay));
     }
-    sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
+    sp_text_add(text, "\"/>\n");
 }
 
 /* Shapes differ as well as colours. */
@@ -268,8 +271,8 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
                     "%s%s</p>\n",
                     page->costly ? "for as low a price" : "with as little water",
                     page->result->proposal->certificate.computed
-                        ? "The dashed line is what no layout of the candidates exceeds, counted on the texels of the "
-                          "certificate below."
+                        ? "The dashed line is what no layout of the candidates exceeds, up to the last dot, counted on "
+                          "the texels of the certificate below."
                         : "How far the best possible may lie above is not known.",
                     page->alternatives ? " Each alternative has its own, in its colour." : "");
     sp_text_add(text, "</section>\n");

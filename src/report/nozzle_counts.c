@@ -54,5 +54,6 @@ void sp_page_nozzle_counts(const sp_page *page, sp_text *text)
     if (page->alternatives)
         sp_text_add(text, "</div>\n");
     sp_text_add(text, "<p class=\"note\">The most that was found with so many nozzles, whatever their "
-                      "water. A number is left out where fewer nozzles cover as much.</p></section>\n");
+                      "water. A number is left out where none was found that covers more than fewer "
+                      "nozzles.</p></section>\n");
 }

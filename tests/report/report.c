@@ -682,6 +682,25 @@ static void what_jets_say_otherwise_is_a_warning(void **state)
     }
 }
 
+/* A bound holds for what costs as much as its point or less: it is drawn to the point's left, none beyond the last. */
+static void assert_bounds_end_at_their_points(const char *html)
+{
+    const char *bound = strstr(html, "<path class=\"bound\"") + strlen("<path class=\"bound\"");
+    const char *point = strstr(html, "<circle class=\"point\"");
+    double last = INFINITY, start, y, x, cx;
+    int read = 0;
+    assert_true(sscanf(bound, " d=\"M70 %lf%n", &start, &read) == 1 && read > 0);
+    for (int i = 0; i < 3; i++) {
+        bound += read;
+        assert_true(sscanf(bound, "V%lfH%lf%n", &y, &x, &read) == 2);
+        assert_true(point && sscanf(point, "<circle class=\"point\" cx=\"%lf\"", &cx) == 1);
+        assert_true(x == cx && y < last && (i > 0 || y == start));
+        last = y;
+        point = strstr(point + 1, "<circle class=\"point\"");
+    }
+    assert_int_equal(bound[read], '"');
+}
+
 static void a_certificate_is_told_in_full(void **state)
 {
     fixture *f = *state;
@@ -721,7 +740,7 @@ static void a_certificate_is_told_in_full(void **state)
     assert_non_null(
         strstr(html, "That share of the surface to be cleaned, attainable or not, rounded up, is what the proposal"));
     assert_non_null(strstr(html, "no layout reaches more than 90.1&nbsp;%: at most 10.7&nbsp;% of what"));
-    assert_non_null(strstr(html, "<path class=\"bound\""));
+    assert_bounds_end_at_their_points(html);
     assert_null(strstr(html, "is not known"));
     free(html);
     text = sp_result_json(&result, &error);
