@@ -128,11 +128,15 @@ static double area_of(const sp_evaluator *fine, const bool *chosen)
     return area;
 }
 
-/* What is asked for, and what to aim at: where less is attainable, that share of what is. */
+/* What is asked for, and what to aim at: where less is attainable, that share of what is; what was not looked into may
+ * be. */
 static void set_areas(const sp_placement *placement, sp_proposal *proposal)
 {
-    double share = placement->options->coverage, attainable = area_of(placement->fine, proposal->attainable);
-    proposal->asked_area = share * sp_evaluator_patches(placement->fine)->total_area;
+    double share = placement->options->coverage, attainable = 0;
+    const sp_patches *patches = sp_evaluator_patches(placement->fine);
+    for (size_t p = 0; p < patches->count; p++)
+        attainable += proposal->attainable[p] || proposal->reasons[p] == SP_REASON_UNKNOWN ? patches->area[p] : 0;
+    proposal->asked_area = share * patches->total_area;
     proposal->target_area = attainable < proposal->asked_area ? share * attainable : proposal->asked_area;
 }
 

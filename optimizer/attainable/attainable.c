@@ -3,6 +3,7 @@
 #include "attainable/reflected.h"
 #include "attainable/passing.h"
 #include "attainable/by_fields.h"
+#include "scoring/footprints.h"
 #include "scoring/mount_capacity.h"
 #include "spray/criterion.h"
 
@@ -202,6 +203,14 @@ static sp_scope *scopes_create(const sp_search *search, const sp_setup *setup)
     return scopes;
 }
 
+/* What footprints that were left out would bring is not known; where no line leads they would not either. */
+static void doubt(const sp_search *search, size_t patches, sp_reason *reasons)
+{
+    for (size_t p = 0; !sp_footprints_whole(search->footprints) && p < patches; p++)
+        if (reasons[p] == SP_REASON_FLUX)
+            reasons[p] = SP_REASON_UNKNOWN;
+}
+
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error)
 {
@@ -229,6 +238,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
                (deadline->cancelled || (sp_attain_by_fields(fine, search, scopes, deadline, reasons, error) &&
                                         (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
                                                : sp_bounces(fine, search, reasons, error))));
+        doubt(search, sp_evaluator_patches(fine)->count, reasons);
     }
     free(scopes);
     sp_coverage_destroy(kept);

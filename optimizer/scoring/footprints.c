@@ -9,7 +9,8 @@ struct sp_footprints {
     sp_search search;     /* of which only what does not change is used */
     sp_footprint **known; /* [poses], by number; NULL: not traced */
     double bytes;
-    bool closed; /* what is not known brings nothing */
+    bool closed;  /* what is not known brings nothing */
+    bool lacking; /* some are not known */
     pthread_mutex_t lock;
     sp_error failure;
 };
@@ -123,6 +124,11 @@ bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t
     return footprints->known[sp_candidates_number(search->candidates, search->sites, (sp_pose){site, variant, 0, 0})];
 }
 
+bool sp_footprints_whole(const sp_footprints *footprints)
+{
+    return !footprints || !footprints->lacking;
+}
+
 bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error)
 {
     const sp_error *failure = footprints ? &footprints->failure : NULL;
@@ -177,8 +183,10 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_err
         end = end_of_batch(poses, first, count);
         /* out of time the first are traced all the same, so that there is something to choose from */
         if (!sp_deadline_goes_on(deadline, "footprints", (double)first / (double)count) &&
-            (first || deadline->cancelled))
+            (first || deadline->cancelled)) {
+            footprints->lacking = true;
             break;
+        }
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t i = first; i < end; i++)
             sp_footprints_look(footprints, poses[i]);

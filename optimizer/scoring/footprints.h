@@ -20,6 +20,8 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_err
 const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);
 /* False of a variant's poses at a site that were left out. */
 bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant);
+/* False where any were left out. Accepts NULL, which left out none. */
+bool sp_footprints_whole(const sp_footprints *footprints);
 /* False where a look has failed since; what was looked at then was empty. Accepts NULL. */
 bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error);
 

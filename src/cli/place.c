@@ -81,6 +81,15 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
     return count;
 }
 
+/* True where it is known of all of the surface whether it is attainable. */
+static bool is_looked_into(const sp_proposal *proposal)
+{
+    for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
+        if (proposal->reasons[p] == SP_REASON_UNKNOWN)
+            return false;
+    return true;
+}
+
 static void say_what_is_missing(const sp_proposal *proposal)
 {
     const sp_coverage *coverage = proposal->coverage;
@@ -98,7 +107,7 @@ static void say_what_is_missing(const sp_proposal *proposal)
     else if (kept_reach)
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");
-    else if (proposal->attainable_area < proposal->asked_area)
+    else if (proposal->attainable_area < proposal->asked_area && is_looked_into(proposal))
         fprintf(stderr,
                 "sprayplan: %.4g %% of the surface was asked for, of which no more than %.2f %% is attainable: the "
                 "proposal covers %.1f %%, %.1f %% of what is attainable\n",
