@@ -25,7 +25,7 @@ void sp_quantity_form(const sp_key *key, char form[SP_KEY_FORM])
     sp_range range = key->range;
     bool angle = dimension == &sp_angle_unit;
     double scale = angle ? 180 / M_PI : 1;
-    const char *unit = angle ? " deg" : "";
+    const char *unit = angle ? " deg" : dimension == &sp_length_unit && isfinite(range.high) ? " m" : "";
     char limits[80] = "";
     if (isfinite(range.low) && isfinite(range.high))
         snprintf(limits, sizeof limits, " %s %g to %s%g%s", range.low_out ? "above" : "from", range.low * scale,

@@ -401,7 +401,10 @@ static const slip catalogue_slips[] = {
      "catalogue.yaml:3:104: exponent: found '1.5', expected a number without unit above 0 to 1 such as 0.5"},
     {"cv: 0.9", "cv: 90",
      "catalogue.yaml:4:98: cv: found '90', expected a number without unit above 0 to 1 such as 0.5"},
-    {"drop: 2 mm", "drop: 0 mm", "catalogue.yaml:4:109: drop: found '0 mm', expected a length above 0 such as 250 mm"},
+    {"drop: 2 mm", "drop: 0 mm",
+     "catalogue.yaml:4:109: drop: found '0 mm', expected a length above 0 to 0.5 m such as 250 mm"},
+    {"drop: 2 mm", "drop: 400",
+     "catalogue.yaml:4:109: drop: found '400', expected a length above 0 to 0.5 m such as 250 mm"},
     {"drop: 2 mm", "rotation: {}", "catalogue.yaml:4:113: rotation: found in a flat_fan, expected in a rotating only"},
     {"drop: 2 mm", "drop: 2 mm, colour: red",
      "catalogue.yaml:4:115: colour: found a key that a catalogue type does not have, expected one of name, pattern, "
