@@ -100,7 +100,7 @@ static const sp_block nozzles_csv = {
     nozzles_csv_keys};
 
 static const sp_key swabs_keys[] = {
-    {.name = "number", .kind = SP_KEY_COUNT, .says = "From 1"},
+    {.name = "number", .kind = SP_KEY_COUNT, .range = SP_FROM(1), .says = "From 1"},
     {.name = "part", .kind = SP_KEY_TEXT, .says = "That it lies on"},
     {.name = "x_m", .kind = SP_KEY_NUMBER, .says = "Its position along x"},
     {.name = "y_m", .kind = SP_KEY_NUMBER, .says = "The same along y"},

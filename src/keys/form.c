@@ -37,7 +37,7 @@ void sp_quantity_form(const sp_key *key, char form[SP_KEY_FORM])
 
 static void count_form(const sp_key *key, char form[SP_KEY_FORM])
 {
-    if (isfinite(key->range.high) && key->range.high > key->range.low)
+    if (isfinite(key->range.high))
         snprintf(form, SP_KEY_FORM, "a whole number from %.15g to %.15g", key->range.low, key->range.high);
     else
         snprintf(form, SP_KEY_FORM, "a whole number");

@@ -39,16 +39,20 @@ static const sp_block unattainable_part = {"unattainable_part", "a part with are
                                            unattainable_part_keys};
 
 static const sp_key account_keys[] = {
-    {.name = "left_out_triangles", .kind = SP_KEY_COUNT, .says = "Triangles without area"},
+    {.name = "left_out_triangles", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Triangles without area"},
     {.name = "cad_chord_m", .kind = SP_KEY_NUMBER, .says = "How far triangles lie off CAD surfaces"},
     {.name = "cad_mended_triangles",
      .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
      .says = "Triangles without area that were merged with others"},
-    {.name = "cad_sewn_faces", .kind = SP_KEY_COUNT, .says = "Faces of no solid that were sewn"},
-    {.name = "cad_faults", .kind = SP_KEY_COUNT, .says = "Faults that may cost surface"},
-    {.name = "closed_shells", .kind = SP_KEY_COUNT, .says = "Taken for bodies and rooms"},
-    {.name = "turned_shells", .kind = SP_KEY_COUNT, .says = "Drawn inside out and turned round"},
-    {.name = "open_shells", .kind = SP_KEY_COUNT, .says = "Taken for sheets, of which both sides count"},
+    {.name = "cad_sewn_faces", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Faces of no solid that were sewn"},
+    {.name = "cad_faults", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Faults that may cost surface"},
+    {.name = "closed_shells", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Taken for bodies and rooms"},
+    {.name = "turned_shells", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Drawn inside out and turned round"},
+    {.name = "open_shells",
+     .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
+     .says = "Taken for sheets, of which both sides count"},
     {.name = "open_shells_m2", .kind = SP_KEY_NUMBER, .says = "Their area"},
     {.name = "inside_m2", .kind = SP_KEY_NUMBER, .says = "What lies in other bodies and is not counted"},
     {.name = "touching_m2", .kind = SP_KEY_NUMBER, .says = "What lies on other surface and is not counted"},
@@ -60,7 +64,7 @@ static const sp_key account_keys[] = {
 static const sp_block account = {"account", "what was made of the geometry", NULL, account_keys};
 
 static const sp_key result_geometry_keys[] = {
-    {.name = "triangles", .kind = SP_KEY_COUNT, .says = "In all files"},
+    {.name = "triangles", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "In all files"},
     {.name = "area_m2", .kind = SP_KEY_NUMBER, .says = "Of all triangles, one side"},
     {.name = "clean_area_m2",
      .kind = SP_KEY_NUMBER,
@@ -90,10 +94,12 @@ static const sp_key fidelity_keys[] = {
     {.name = "evaluator", .kind = SP_KEY_CHOICE, .words = words_evaluator, .says = "Which evaluator"},
     {.name = "reflections",
      .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
      .says = "How often liquid was followed after a wall had thrown it back"},
-    {.name = "jets_per_nozzle", .kind = SP_KEY_COUNT, .says = "Forward only"},
+    {.name = "jets_per_nozzle", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Forward only"},
     {.name = "jets_wanted_per_nozzle",
      .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
      .says = "How many so short a texel wants, where fewer were flown"},
     {.name = "texel_m", .kind = SP_KEY_NUMBER, .says = "Edge of a texel"},
     {.name = "error_estimate",
@@ -175,7 +181,7 @@ static const sp_key shadow_keys[] = {
 static const sp_block shadow = {"shadow", "a shadow: connected surface that is not covered", NULL, shadow_keys};
 
 static const sp_key tracks_keys[] = {
-    {.name = "turns", .kind = SP_KEY_COUNT, .says = "Of its body"},
+    {.name = "turns", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Of its body"},
     {.name = "seconds", .kind = SP_KEY_NUMBER, .says = "That they take"},
     {.name = "reached_m2", .kind = SP_KEY_NUMBER, .says = "Surface that its jets reach"},
     {.name = "mean_gap_m", .kind = SP_KEY_NUMBER, .says = "From there to the middle of the nearest track, by area"},
@@ -224,7 +230,10 @@ static const sp_key result_layout_keys[] = {
     {.name = "coverage_of_attainable", .kind = SP_KEY_NUMBER, .says = "Covered over attainable area"},
     {.name = "area_per_water", .kind = SP_KEY_NUMBER, .says = "m2 covered per L/min"},
     {.name = "flux_l_min_m2", .kind = SP_KEY_BLOCK, .block = &range, .says = "Of liquid that arrives"},
-    {.name = "new_fittings", .kind = SP_KEY_COUNT, .says = "Nozzles in no port; of alternatives only"},
+    {.name = "new_fittings",
+     .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
+     .says = "Nozzles in no port; of alternatives only"},
     {.name = "price", .kind = SP_KEY_BLOCK, .block = &price, .says = "Where mounts cost something"},
     {.name = "dose_l_m2", .kind = SP_KEY_BLOCK, .block = &range, .says = "Of goods that move"},
     {.name = "pass_s", .kind = SP_KEY_NUMBER, .says = "How long they take"},
@@ -252,8 +261,8 @@ static const sp_key front_point_keys[] = {
     {.name = "water_l_min", .kind = SP_KEY_NUMBER, .says = "Of all nozzles"},
     {.name = "price_l_min", .kind = SP_KEY_NUMBER, .says = "With what mounts cost, where they do"},
     {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "The best found for it"},
-    {.name = "nozzles", .kind = SP_KEY_COUNT, .says = "How many"},
-    {.name = "new_fittings", .kind = SP_KEY_COUNT, .says = "Of alternatives"},
+    {.name = "nozzles", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "How many"},
+    {.name = "new_fittings", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Of alternatives"},
     {.name = "coverage_on_texels", .kind = SP_KEY_NUMBER, .says = "The same on the texels of the certificate"},
     {.name = "coverage_bound",
      .kind = SP_KEY_NUMBER,
@@ -265,11 +274,11 @@ static const sp_key front_point_keys[] = {
 static const sp_block front_point = {"front_point", "a point of the front", NULL, front_point_keys};
 
 static const sp_key number_point_keys[] = {
-    {.name = "nozzles", .kind = SP_KEY_COUNT, .says = "How many"},
+    {.name = "nozzles", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "How many"},
     {.name = "water_l_min", .kind = SP_KEY_NUMBER, .says = "Of all nozzles"},
     {.name = "price_l_min", .kind = SP_KEY_NUMBER, .says = "With what mounts cost, where they do"},
     {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "The best found"},
-    {.name = "new_fittings", .kind = SP_KEY_COUNT, .says = "Of alternatives"},
+    {.name = "new_fittings", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Of alternatives"},
     {.name = NULL}};
 static const sp_block number_point = {"number_point", "a point of the front by nozzles", NULL, number_point_keys};
 
@@ -278,14 +287,15 @@ static const sp_key forward_check_keys[] = {
     {.name = "difference", .kind = SP_KEY_NUMBER, .says = "That less the inverse evaluation"},
     {.name = "tolerance", .kind = SP_KEY_NUMBER, .says = "The accuracy asked for, or what so many jets can tell"},
     {.name = "agrees", .kind = SP_KEY_FLAG, .says = "Whether the difference is within that"},
-    {.name = "jets", .kind = SP_KEY_COUNT, .says = "How many were flown"},
-    {.name = "texels", .kind = SP_KEY_COUNT, .says = "That both count on"},
+    {.name = "jets", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "How many were flown"},
+    {.name = "texels", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "That both count on"},
     {.name = NULL}};
 static const sp_block forward_check = {"forward_check", "the proposal counted by jets", NULL, forward_check_keys};
 
 static const sp_key every_aim_keys[] = {
     {.name = "mounting_points",
      .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
      .says = "At which every axis, roll, angle and flow that is allowed is considered"},
     {.name = "coverage_bound_same_water", .kind = SP_KEY_NUMBER, .says = "No layout covers more with as much water"},
     {.name = "water_bound_same_coverage_l_min", .kind = SP_KEY_NUMBER, .says = "None covers as much with less"},
@@ -307,9 +317,9 @@ static const sp_key certificate_keys[] = {
      .says = "In place of the first, where mounts cost something"},
     {.name = "price_bound_same_coverage_l_min", .kind = SP_KEY_NUMBER, .says = "In place of the second"},
     {.name = "gap", .kind = SP_KEY_NUMBER, .says = "(bound - found) / bound"},
-    {.name = "candidates", .kind = SP_KEY_COUNT, .says = "Poses"},
-    {.name = "own_poses", .kind = SP_KEY_COUNT, .says = "Of layouts found, besides"},
-    {.name = "texels", .kind = SP_KEY_COUNT, .says = "That it counts"},
+    {.name = "candidates", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Poses"},
+    {.name = "own_poses", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Of layouts found, besides"},
+    {.name = "texels", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "That it counts"},
     {.name = "every_aim",
      .kind = SP_KEY_BLOCK,
      .block = &every_aim,

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The program's JSON Schemas, by an independent validator: they take what the program takes, and refuse what it refuses.
+"""The program's JSON Schemas, by an independent validator: they take what the program takes and
+writes, and refuse what it refuses.
 
     schema.py SPRAYPLAN SOURCE_FOLDER
 
@@ -72,5 +73,13 @@ slips = [
 ]
 for number, (schema, tree, change) in enumerate(slips):
     assert refused(schema, tree, change), f"slip {number} is taken"
-schema_of("result")
-print(f"{taken} files taken, {len(slips)} slips refused")
+
+result = schema_of("result")
+placed = subprocess.run([program, "place", f"{source}/tests/cli/readme/vessel.yaml", "--json", "--quiet"], check=True,
+                        capture_output=True, text=True).stdout
+results = [json.loads(placed)] + [load(path) for path in sorted(glob.glob(f"{source}/tests/cli/golden/*.json"))]
+for number, tree in enumerate(results):
+    for error in result.iter_errors(tree):
+        sys.exit(f"result {number}: {list(error.absolute_path)}: {error.message[:300]}")
+assert refused(result, results[0], lambda t: t["geometry"].update(triangles=-1))
+print(f"{taken} files and {len(results)} results taken, {len(slips)} slips refused")

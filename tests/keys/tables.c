@@ -50,6 +50,8 @@ static void check_texts(const sp_block *block, void *state)
         sp_key_form(key, form);
         if (size < 2 || key->says[size - 1] == '.' || strlen(form) + 1 == SP_KEY_FORM)
             fail_msg("%s of %s", key->name, block->what);
+        if (key->kind == SP_KEY_COUNT && !(key->range.low < key->range.high))
+            fail_msg("%s of %s: no whole number is within its range", key->name, block->what);
         assert_true(!key->standard || !key->absent);
         assert_true(!key->required || (!key->standard && !key->absent));
         assert_int_equal(key->kind == SP_KEY_CHOICE, key->words && key->kind == SP_KEY_CHOICE);
