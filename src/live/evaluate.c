@@ -56,7 +56,9 @@ static void add_patch(const sp_live *live, const sp_deposits *alone, bool again,
 {
     bool single = sp_evaluator_setup(live->evaluator)->criterion.combine == SP_COMBINE_SINGLE;
     all->flux[i] += alone->flux[i];
+    all->counted[i] = single ? fmax(all->counted[i], alone->counted[i]) : all->counted[i] + alone->counted[i];
     all->speed[i] += alone->speed[i];
+    all->speed_max[i] = fmax(all->speed_max[i], alone->speed_max[i]);
     all->incidence[i] += alone->incidence[i];
     all->impact[i] += alone->impact[i];
     all->even[i] = single ? fmax(all->even[i], alone->even[i]) : all->even[i] + alone->even[i];
@@ -67,7 +69,9 @@ static void add_patch(const sp_live *live, const sp_deposits *alone, bool again,
 static void stand_for(sp_deposits *all, size_t i, size_t standing)
 {
     all->flux[i] = all->flux[standing];
+    all->counted[i] = all->counted[standing];
     all->speed[i] = all->speed[standing];
+    all->speed_max[i] = all->speed_max[standing];
     all->incidence[i] = all->incidence[standing];
     all->impact[i] = all->impact[standing];
     all->even[i] = all->even[standing];

@@ -280,11 +280,16 @@ static void shadows_are_those_of_the_layout(void **state)
     size_t count;
     assert_true(sp_shadows(evaluator, coverage, NULL, &shadows, &count, &error));
     assert_true(sp_live_find_shadows(live));
-    const double *list = sp_live_tell(live, SP_LIVE_SHADOW_LIST);
-    assert_true(count > 0);
-    assert_int_equal((size_t)figure(SP_LIVE_SHADOW_COUNT), count < SP_LIVE_SHADOWS ? count : SP_LIVE_SHADOWS);
-    assert_float_equal(list[0], shadows[0].area, TOLERANCE);
-    assert_int_equal((size_t)list[4], shadows[0].part);
+    const double(*list)[SP_LIVE_SHADOW_NUMBERS] = sp_live_tell(live, SP_LIVE_SHADOW_LIST);
+    size_t told = count < SP_LIVE_SHADOWS ? count : SP_LIVE_SHADOWS, of_flux = 0;
+    assert_int_equal((size_t)figure(SP_LIVE_SHADOW_COUNT), told);
+    assert_float_equal(list[0][0], shadows[0].area, TOLERANCE);
+    for (size_t i = 0; i < told; i++) {
+        assert_int_equal((size_t)list[i][4], shadows[i].part);
+        assert_int_equal((size_t)list[i][5], shadows[i].lack);
+        of_flux += shadows[i].lack == SP_LACK_FLUX;
+    }
+    assert_true(of_flux > 0);
     free(shadows);
     sp_coverage_destroy(coverage);
 }
