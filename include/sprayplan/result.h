@@ -206,7 +206,8 @@ typedef struct {
 SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
 
 /* result.json, its keys as `sprayplan help result` has them; `geometry` and `fidelity` stand in each layout where the
- * designs differ in them. Malloc'd text, newline at the end, the caller frees. */
+ * designs differ in them, and where they differ in nothing but what is attainable, the rest of `geometry` once more
+ * beside the layouts. Malloc'd text, newline at the end, the caller frees. */
 SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,

@@ -245,7 +245,7 @@ static const sp_key result_layout_keys[] = {
     {.name = "geometry",
      .kind = SP_KEY_BLOCK,
      .block = &result_geometry,
-     .says = "As the result's own, where the layouts of a comparison differ in it"},
+     .says = "As the result's own, where layouts differ in it or, as alternatives do, in what is attainable"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "The same"},
     {.name = NULL}};
 static const sp_block result_layout = {"result_layout", "a layout", NULL, result_layout_keys};
@@ -375,7 +375,10 @@ static const sp_key result_keys[] = {
     {.name = "command", .kind = SP_KEY_TEXT, .says = "simulate, place or compare"},
     {.name = "scene", .kind = SP_KEY_TEXT, .says = "The file"},
     {.name = "inputs", .kind = SP_KEY_BLOCKS, .block = &result_input, .says = "What was read, pipes aside"},
-    {.name = "geometry", .kind = SP_KEY_BLOCK, .block = &result_geometry, .says = "What is to be cleaned"},
+    {.name = "geometry",
+     .kind = SP_KEY_BLOCK,
+     .block = &result_geometry,
+     .says = "What is to be cleaned: as far as it is that of all layouts"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "How it was computed"},
     {.name = "layouts", .kind = SP_KEY_BLOCKS, .block = &result_layout, .says = "One after the other"},
     PROPOSAL,

@@ -69,10 +69,20 @@ static bool put_alternatives(json_t *root, const sp_result *result, const sp_fig
     return sp_put(root, "alternatives", alternatives) && done;
 }
 
+/* What the surfaces of all layouts have in common: of what is attainable nothing, where that is not `one`. */
+static bool put_common_geometry(json_t *root, const sp_result *result, const sp_figures *figures, bool one)
+{
+    sp_figures common = figures[0];
+    if (!one)
+        common.attainable_area = NAN;
+    return sp_put_geometry(root, &common, result->designs[0].evaluator);
+}
+
 static bool fill(json_t *root, const sp_result *result, const sp_figures *figures)
 {
-    bool one_geometry = true, one_fidelity = true;
+    bool one_surface = true, one_geometry = true, one_fidelity = true;
     for (size_t i = 1; i < result->design_count; ++i) {
+        one_surface = one_surface && sp_same_surface(&figures[0], &figures[i]);
         one_geometry = one_geometry && sp_same_geometry(&figures[0], &figures[i]);
         one_fidelity = one_fidelity && sp_same_fidelity(&figures[0], &figures[i]);
     }
@@ -80,7 +90,7 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     bool done =
         scene && sp_put_text(root, "sprayplan", SP_VERSION) && sp_put_text(root, "command", result->command) &&
         sp_put_text(root, "scene", scene) && put_inputs(root, result) &&
-        (!one_geometry || result->design_count == 0 || sp_put_geometry(root, figures, result->designs[0].evaluator)) &&
+        (!one_surface || result->design_count == 0 || put_common_geometry(root, result, figures, one_geometry)) &&
         (!one_fidelity || result->design_count == 0 ||
          sp_put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));
     free(scene);

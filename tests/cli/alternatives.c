@@ -105,6 +105,22 @@ static void each_is_a_placement_of_its_own(void **state)
     json_decref(alone);
 }
 
+/* Each has its own share that is attainable, of one surface. */
+static void they_share_a_geometry(void **state)
+{
+    (void)state;
+    json_t *common = json_object_get(all, "geometry");
+    assert_true(number(common, "clean_area_m2") > 0);
+    assert_null(json_object_get(common, "attainable_area_m2"));
+    for (size_t k = 0; k < 3; k++) {
+        json_t *own = json_object_get(named(all, "layouts", names[k]), "geometry");
+        same(own, common, "triangles");
+        same(own, common, "area_m2");
+        same(own, common, "clean_area_m2");
+        assert_true(number(own, "attainable_area_m2") > 0);
+    }
+}
+
 /* A nozzle is of its port's name or wants a fitting, and there are no more of these than an alternative allows. */
 static void fittings_are_counted_and_limited(void **state)
 {
@@ -346,6 +362,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_is_a_placement_of_its_own),
+        cmocka_unit_test(they_share_a_geometry),
         cmocka_unit_test(fittings_are_counted_and_limited),
         cmocka_unit_test(one_is_proposed),
         cmocka_unit_test(none_may_reach_what_is_asked_for),

@@ -64,6 +64,20 @@ static void sheets_have_a_back(void **state)
     expect_agreement("two", "sheet");
 }
 
+static void alternatives_are_read_too(void **state)
+{
+    (void)state;
+    skip_without_python();
+    char text[4096];
+    snprintf(text, sizeof text, "%s  refine: none\n  alternatives: [{name: first, mounts: [P1]}, {name: both}]\n",
+             room_yaml);
+    write_file("choice.yaml", text);
+    outcome run = run_program("place choice.yaml -o choice --no-live --quiet --set simulate.texel=100mm");
+    assert_string_equal(run.err, "");
+    forget(&run);
+    expect_agreement("choice", "ceiling");
+}
+
 static void what_differs_is_told(void **state)
 {
     (void)state;
@@ -91,6 +105,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_agree_with_the_result),
         cmocka_unit_test(sheets_have_a_back),
+        cmocka_unit_test(alternatives_are_read_too),
         cmocka_unit_test(what_differs_is_told),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
