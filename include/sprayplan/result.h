@@ -113,6 +113,11 @@ SP_API size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_
 /* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not told. */
 SP_API double sp_figures_price(const sp_figures *figures);
 SP_API double sp_figures_money(const sp_figures *figures);
+/* Whether two layouts are of one surface, by its triangles and, up to round-off, its areas. */
+SP_API bool sp_same_surface(const sp_figures *a, const sp_figures *b);
+/* Whether it is told of what surface a layout is; whether all of which it is are of one. */
+SP_API bool sp_figures_tell_surface(const sp_figures *figures);
+SP_API bool sp_figures_share_surface(const sp_figures *figures, size_t count);
 /* Accepts NULL. */
 SP_API void sp_figures_destroy(sp_figures *figures, size_t count);
 

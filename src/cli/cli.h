@@ -221,6 +221,8 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
                const sp_layout *layout, char **written, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
+/* differing.c: nothing where all have all in common. */
+void cli_print_differing(const sp_result *result, const sp_figures *figures);
 /* summary.c: an object, which it takes, on standard output. False where memory ran out: what could not be written shows
  * at the end. */
 bool cli_print_object(json_t *object, int digits);

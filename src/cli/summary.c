@@ -340,6 +340,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
         return false;
     print_geometry(result);
     print_all_missing(result, figures);
+    cli_print_differing(result, figures);
     int width = 0;
     for (size_t i = 0; i < result->design_count; i++)
         width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;

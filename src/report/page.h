@@ -106,6 +106,8 @@ bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
 bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error);
 void sp_page_viewer_script(const sp_page *page, sp_text *text);
 #define SP_PAGE_SHADOWS 10 /* largest ones that are listed */
+/* differing.c: what designs side by side do not have in common besides their nozzles; nothing where they do. */
+void sp_page_differing(const sp_page *page, sp_text *text);
 /* same_layouts.c: which designs are the same nozzles, counted by several runs; nothing where none are. */
 void sp_page_same_layouts(const sp_page *page, sp_text *text);
 /* tables.c */

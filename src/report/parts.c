@@ -5,17 +5,20 @@
 #include <string.h>
 
 #define PARTS_SHOWN 24
+#define ROUND_OFF 1e-6 /* relative: parts may be small beside the length of a texel */
 
 static double share(const sp_part_figures *part)
 {
     return part->area > 0 ? part->covered / part->area : NAN;
 }
 
+/* By name and, up to round-off, by area: one column of areas is then that of both. */
 static bool same_parts(const sp_figures *a, const sp_figures *b)
 {
     bool same = a->part_count == b->part_count;
     for (size_t i = 0; same && i < a->part_count; ++i)
-        same = strcmp(a->parts[i].part, b->parts[i].part) == 0;
+        same = strcmp(a->parts[i].part, b->parts[i].part) == 0 &&
+               !(fabs(a->parts[i].area - b->parts[i].area) > ROUND_OFF * fmax(a->parts[i].area, b->parts[i].area));
     return same;
 }
 

@@ -48,6 +48,34 @@ double sp_figures_money(const sp_figures *figures)
     return figures->water_cost.money > 0 ? sp_figures_price(figures) * figures->water_cost.money : NAN;
 }
 
+static bool same_area(double a, double b)
+{
+    return (isnan(a) && isnan(b)) || fabs(a - b) <= 1e-9 * fmax(a, b);
+}
+
+bool sp_same_surface(const sp_figures *a, const sp_figures *b)
+{
+    return a->triangles == b->triangles && same_area(a->area, b->area) && same_area(a->clean_area, b->clean_area);
+}
+
+bool sp_figures_tell_surface(const sp_figures *figures)
+{
+    return figures->triangles != SP_UNKNOWN && isfinite(figures->clean_area);
+}
+
+bool sp_figures_share_surface(const sp_figures *figures, size_t count)
+{
+    const sp_figures *first = NULL;
+    bool share = true;
+    for (size_t i = 0; share && i < count; ++i) {
+        if (!sp_figures_tell_surface(&figures[i]))
+            continue;
+        first = first ? first : &figures[i];
+        share = sp_same_surface(first, &figures[i]);
+    }
+    return share;
+}
+
 bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
 {
     figures->shadows = calloc(shadows + 1, sizeof *figures->shadows);

@@ -277,14 +277,10 @@ static bool equal(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
-bool sp_same_surface(const sp_figures *a, const sp_figures *b)
-{
-    return a->triangles == b->triangles && equal(a->area, b->area) && equal(a->clean_area, b->clean_area);
-}
-
 bool sp_same_geometry(const sp_figures *a, const sp_figures *b)
 {
-    return sp_same_surface(a, b) && equal(a->attainable_area, b->attainable_area);
+    return a->triangles == b->triangles && equal(a->area, b->area) && equal(a->clean_area, b->clean_area) &&
+           equal(a->attainable_area, b->attainable_area);
 }
 
 bool sp_same_fidelity(const sp_figures *a, const sp_figures *b)

@@ -37,9 +37,7 @@ static inline bool sp_put_vector(json_t *object, const char *key, sp_vec3 value)
     return sp_put(object, key, json_pack("[fff]", value.x, value.y, value.z));
 }
 
-/* json_layout.c. What all layouts have in common is put beside them, else into each. Those of one surface are of one
- * geometry where as much of it is attainable. */
-bool sp_same_surface(const sp_figures *a, const sp_figures *b);
+/* json_layout.c. What all layouts have in common is put beside them, else into each. */
 bool sp_same_geometry(const sp_figures *a, const sp_figures *b);
 bool sp_same_fidelity(const sp_figures *a, const sp_figures *b);
 bool sp_put_geometry(json_t *object, const sp_figures *figures, const sp_evaluator *evaluator);

@@ -69,6 +69,31 @@ static void what_differs_otherwise_keeps_its_own(void **state)
     free(page);
 }
 
+/* Each share is of its own surface, and each column of the areas that stand before it. */
+static void another_geometry_is_told(void **state)
+{
+    (void)state;
+    outcome done = run_program("compare long/result.json wide/result.json -o sizes");
+    assert_string_equal(done.err, "");
+    assert_int_equal(done.status, 0);
+    assert_non_null(strstr(done.out, "the geometries differ in what is to be cleaned: long/result.json 6 m2, 12 "
+                                     "triangles; wide/result.json 8.64 m2, 12 triangles"));
+    forget(&done);
+    char *page = read_file("sizes/report.html", NULL);
+    assert_non_null(strstr(page, "<strong>The geometries differ.</strong>"));
+    assert_null(strstr(page, "12 triangles, 6.000&nbsp;m"));
+    const char *parts = strstr(page, "<section id=\"parts\">");
+    const char *first = strstr(parts, "rowspan=\"2\">Part</th>"),
+               *second = strstr(first + 1, "rowspan=\"2\">Part</th>");
+    assert_non_null(second);
+    assert_non_null(strstr(second, "<th scope=\"row\">together</th><td>8.64</td>"));
+    free(page);
+    run_quietly("compare long/result.json short/result.json -o sizes --quiet");
+    page = read_file("sizes/report.html", NULL);
+    assert_null(strstr(page, "The geometries differ"));
+    free(page);
+}
+
 static size_t count_of(const char *text, const char *part)
 {
     size_t count = 0;
@@ -111,6 +136,11 @@ static int make_results(void **state)
     char *flux = strstr(room, "flux: 1 ");
     snprintf(strict, sizeof strict, "%.*sflux: 4 %s", (int)(flux - room), room, flux + strlen("flux: 1 "));
     write_file("strict.yaml", strict);
+    char wide[4096];
+    const char *file = strstr(room, "room.obj");
+    snprintf(wide, sizeof wide, "%.*sroom.obj\n    scale: 1.2%s", (int)(file - room), room, file + strlen("room.obj"));
+    write_file("wide.yaml", wide);
+    run_quietly("simulate wide.yaml -o wide --quiet --set simulate.texel=90mm");
     free(room);
     run_quietly("simulate strict.yaml -o strict --quiet --set simulate.texel=60mm");
     return 0;
@@ -121,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_layout_has_one_figure),
         cmocka_unit_test(what_differs_otherwise_keeps_its_own),
+        cmocka_unit_test(another_geometry_is_told),
         cmocka_unit_test(many_fold),
     };
     return cmocka_run_group_tests_name("compare", tests, make_results, close_workplace);

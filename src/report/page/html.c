@@ -249,7 +249,8 @@ static void add_title(const sp_page *page, sp_text *text, const char *scene)
                 : page->result->design_count == 1 ? "Spray nozzle layout"
                                                   : "Spray nozzle layouts compared");
     sp_markup_escape(text, scene);
-    if (page->result->design_count > 0 && page->figures[0].triangles != SP_UNKNOWN) {
+    if (page->result->design_count > 0 && page->figures[0].triangles != SP_UNKNOWN &&
+        sp_figures_share_surface(page->figures, page->result->design_count)) {
         sp_text_add(text, " \xc2\xb7 %zu triangles, ", page->figures[0].triangles);
         sp_markup_significant(text, page->figures[0].clean_area, 4);
         sp_text_add(text, "&nbsp;m\xc2\xb2 to be cleaned");
@@ -263,6 +264,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     add_title(page, text, scene);
     sp_page_out_of_reach(page, text);
     sp_page_headline(page, text);
+    sp_page_differing(page, text);
     sp_page_attainable(page, text);
     sp_page_figures(page, text);
     sp_page_alternatives(page, text);
