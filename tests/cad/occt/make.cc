@@ -1,4 +1,7 @@
-/* Makes the CAD files of the tests through OpenCASCADE: make-cad vessel|altered|round|bars FILE [UNIT or COUNT]. */
+/* Makes the CAD files of the tests through OpenCASCADE: make-cad
+ * vessel|altered|round|ball|head|bars FILE [UNIT, COUNT or DEGREES]. */
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -9,6 +12,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <Geom_Ellipse.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Writer.hxx>
@@ -29,7 +33,7 @@ namespace
 {
 
 // mm
-const double RADIUS = 500, HEIGHT = 1000, WALL = 5, SHAFT = 20, SHAFT_END = 100;
+const double RADIUS = 500, HEIGHT = 1000, WALL = 5, SHAFT = 20, SHAFT_END = 100, PIPE = 50, NOZZLE_END = 700;
 const double BLADE[3] = {300, 10, 87};
 
 Handle(XCAFDoc_ShapeTool) shapes;
@@ -114,6 +118,41 @@ void round()
     product(BRepPrimAPI_MakeSphere(away, RADIUS, -M_PI / 2, 0.0), "hemisphere");
 }
 
+/* What is within `outer` and a pipe, but not within `inner` and the pipe's bore. */
+TopoDS_Shape with_nozzle(const TopoDS_Shape &outer, const TopoDS_Shape &inner, const gp_Ax2 &nozzle, double length)
+{
+    TopoDS_Shape pipe = BRepPrimAPI_MakeCylinder(nozzle, PIPE, length),
+                 bore = BRepPrimAPI_MakeCylinder(nozzle, PIPE - WALL, length - WALL);
+    return BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(outer, pipe), BRepAlgoAPI_Fuse(inner, bore));
+}
+
+/* A hollow sphere with a shut nozzle across its seam. */
+void ball()
+{
+    product(with_nozzle(BRepPrimAPI_MakeSphere(RADIUS), BRepPrimAPI_MakeSphere(RADIUS - WALL),
+                        gp_Ax2(gp_Pnt(0, 0, 0), gp::DX()), NOZZLE_END),
+            "ball");
+}
+
+/* A head that is half as high as wide, as an ellipse turned about its own axis, on a flat floor. */
+TopoDS_Shape head(double radius)
+{
+    Handle(Geom_Ellipse) ellipse = new Geom_Ellipse(gp_Ax2(gp_Pnt(0, 0, 0), -gp::DY(), gp::DX()), radius, radius / 2);
+    BRepBuilderAPI_MakeWire wire;
+    wire.Add(line(0, 0, radius, 0));
+    wire.Add(BRepBuilderAPI_MakeEdge(ellipse, gp_Pnt(radius, 0, 0), gp_Pnt(0, 0, radius / 2)).Edge());
+    wire.Add(line(0, radius / 2, 0, 0));
+    return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ()).Shape();
+}
+
+/* Hollow, with a shut nozzle so far round from its seam. */
+void hollow_head(double degrees)
+{
+    gp_Ax2 nozzle = gp_Ax2(gp_Pnt(200, 0, 100), gp::DZ()).Transformed(turned(degrees));
+    gp_Trsf above = moved(0, 0, WALL);
+    product(with_nozzle(head(RADIUS), head(RADIUS - 2 * WALL).Moved(above), nozzle, 300), "head");
+}
+
 /* Many bars of three faces each, fifty in a row. */
 void bars(int count)
 {
@@ -164,9 +203,13 @@ int main(int count, char **arguments)
         vessel(what == "altered");
     else if (what == "round")
         round();
+    else if (what == "ball")
+        ball();
+    else if (what == "head")
+        hollow_head(atof(last.c_str()));
     else if (what == "bars")
         bars(atoi(last.c_str()));
     else
         return 2;
-    return write(document, arguments[2], what == "bars" ? "MM" : last.c_str()) ? 0 : 1;
+    return write(document, arguments[2], what == "bars" || what == "head" ? "MM" : last.c_str()) ? 0 : 1;
 }

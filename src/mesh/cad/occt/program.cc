@@ -2,6 +2,8 @@
  * says. A program of its own, since OpenCASCADE may crash, hang or eat all memory on a bad file. */
 #include "mesh/cad/records.h"
 
+#include "revolved.h"
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -467,6 +469,7 @@ void read_step(const char *file, Model &model, const Message_ProgressRange &rang
     Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
     if (reader.ReadFile(file) != IFSelect_RetDone)
         throw std::runtime_error("found no STEP file, or one that is damaged");
+    sp_cad_halve_revolved(reader.ChangeReader().Model());
     bool any = reader.Transfer(document, range);
     model.add_faults(reader.Reader().WS());
     TDF_LabelSequence roots;
