@@ -36,7 +36,7 @@ typedef struct {
     size_t mended;       /* triangles without area that were dropped, or split their neighbours in their place */
     size_t sewn;         /* faces that were in no solid, */
     double sewing;       /* sewn to others nearer than this, m */
-    size_t faults;       /* what OpenCASCADE could not make sense of */
+    size_t faults;       /* what OpenCASCADE could not make sense of, or cannot have made right */
     char fault[200];     /* the first of them */
 } sp_cad_account;
 

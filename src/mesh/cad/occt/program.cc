@@ -3,6 +3,7 @@
 #include "mesh/cad/records.h"
 
 #include "revolved.h"
+#include "soundness.h"
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
@@ -63,6 +64,7 @@ namespace
 
 const double CHORD_SHARE = 1e-3;     // of the diagonal
 const double SEWING_SHARE = 1e-5;    // of the diagonal
+const double AREA_LEAST = 1e-6;      // of the diagonal's square: a face's triangles may be off by it
 const size_t RECORD_VERTICES = 4096; // in a record
 
 FILE *pipe_out;
@@ -313,9 +315,13 @@ void Model::mesh(double diagonal, const Message_ProgressRange &range)
     BRepTools::Clean(all); // triangles that the file holds
     BRepMesh_IncrementalMesh mesher(all, parameters, range);
     TopLoc_Location where;
+    std::string text;
     for (TopExp_Explorer at(all, TopAbs_FACE); at.More(); at.Next())
         if (BRep_Tool::Triangulation(TopoDS::Face(at.Current()), where).IsNull())
             add_fault("a face that cannot be cut into triangles");
+        else if (!sp_cad_keeps_area(TopoDS::Face(at.Current()), fineness.angle, AREA_LEAST * diagonal * diagonal, unit,
+                                    text))
+            add_fault(text);
 }
 
 /* The nodes of the edges that a body's faces share, each the same to the last bit whichever face it is seen from, while
@@ -458,7 +464,8 @@ void visit(Model &model, const TDF_Label &label, const TopLoc_Location &above, c
         visit(model, children.Value(i), where, names);
 }
 
-void read_step(const char *file, Model &model, const Message_ProgressRange &range)
+/* Returns how much of it cannot be right. */
+size_t read_step(const char *file, int curves, Model &model, const Message_ProgressRange &range)
 {
     STEPCAFControl_Reader reader;
     reader.SetColorMode(Standard_False);
@@ -466,16 +473,34 @@ void read_step(const char *file, Model &model, const Message_ProgressRange &rang
     reader.SetPropsMode(Standard_False);
     reader.SetGDTMode(Standard_False);
     reader.SetMatMode(Standard_False);
+    Interface_Static::SetIVal("read.surfacecurve.mode", curves);
     Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
     if (reader.ReadFile(file) != IFSelect_RetDone)
         throw std::runtime_error("found no STEP file, or one that is damaged");
     sp_cad_halve_revolved(reader.ChangeReader().Model());
     bool any = reader.Transfer(document, range);
     model.add_faults(reader.Reader().WS());
+    std::vector<std::string> flaws = sp_cad_flaws(reader.Reader().WS());
+    for (const std::string &flaw : flaws)
+        model.add_fault(flaw);
     TDF_LabelSequence roots;
     XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(roots);
     for (int i = 1; any && i <= roots.Length(); i++)
         visit(model, roots.Value(i), TopLoc_Location(), "");
+    return flaws.size();
+}
+
+/* Edges lie where their curves in space have them: in a surface's own coordinates both sides of a seam are the same
+ * place, and OpenCASCADE takes the wrong one. Where that cannot be right either, the file is read as it prefers. */
+void read_step_soundly(const char *file, Model &model, const Message_ProgressRange &range)
+{
+    enum { AS_THE_FILE_PREFERS = 0, IN_SPACE = 3 };
+    Message_ProgressScope scope(range, "", 2);
+    Model other;
+    other.fineness = model.fineness;
+    size_t flaws = read_step(file, IN_SPACE, model, scope.Next());
+    if (flaws > 0 && read_step(file, AS_THE_FILE_PREFERS, other, scope.Next()) < flaws)
+        model = other;
 }
 
 void read_iges(const char *file, Model &model, const Message_ProgressRange &range)
@@ -512,7 +537,7 @@ void convert(const char *kind, const char *file, Model &model, double most_chord
     Message_ProgressScope scope(progress->Start(), "", 10);
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     if (strcmp(kind, "step") == 0)
-        read_step(file, model, scope.Next(4));
+        read_step_soundly(file, model, scope.Next(4));
     else if (strcmp(kind, "iges") == 0)
         read_iges(file, model, scope.Next(4));
     else
