@@ -71,6 +71,8 @@ typedef struct {
     double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
     size_t missing_count;                           /* of parts that are not wholly attainable */
     sp_missing_figures *missing;                    /* owned; those of most area first */
+    bool criterion_known;                           /* false: nothing in `criterion` means anything */
+    sp_criterion criterion;                         /* what was asked for */
     char trajectory[16], evaluator[16];             /* "line", "parabola" or "drag"; "forward" or "inverse" */
     size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
     size_t jets_wanted;                             /* per nozzle, where they are fewer; else unknown */
@@ -118,6 +120,13 @@ SP_API bool sp_same_surface(const sp_figures *a, const sp_figures *b);
 /* Whether it is told of what surface a layout is; whether all of which it is are of one. */
 SP_API bool sp_figures_tell_surface(const sp_figures *figures);
 SP_API bool sp_figures_share_surface(const sp_figures *figures, size_t count);
+/* Whether of both layouts the same was asked for, up to round-off, or of neither it is told what; whether it is so of
+ * all. */
+SP_API bool sp_same_criterion(const sp_figures *a, const sp_figures *b);
+SP_API bool sp_figures_share_criterion(const sp_figures *figures, size_t count);
+/* What was asked for, as a clause of plain text: "at least 1 L/min/m2, at least 2 m/s"; "not told" where it is not. */
+#define SP_CRITERION_TEXT 200
+SP_API void sp_criterion_clause(const sp_figures *figures, char text[SP_CRITERION_TEXT]);
 /* Accepts NULL. */
 SP_API void sp_figures_destroy(sp_figures *figures, size_t count);
 
@@ -210,9 +219,9 @@ typedef struct {
 /* Returns how many. */
 SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
 
-/* result.json, its keys as `sprayplan help result` has them; `geometry` and `fidelity` stand in each layout where the
- * designs differ in them, and where they differ in nothing but what is attainable, the rest of `geometry` once more
- * beside the layouts. Malloc'd text, newline at the end, the caller frees. */
+/* result.json, its keys as `sprayplan help result` has them; `geometry`, `criterion` and `fidelity` stand in each
+ * layout where the designs differ in them, and where they differ in nothing but what is attainable, the rest of
+ * `geometry` once more beside the layouts. Malloc'd text, newline at the end, the caller frees. */
 SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,

@@ -116,13 +116,13 @@ static bool same_nozzle(const sp_nozzle_figures *a, const sp_nozzle_figures *b)
     return same;
 }
 
-/* The same nozzles in the same geometry, counted the same way but on texels of their own, and told apart by no more
- * than their errors: what else may differ, such as the criterion, would show. */
+/* The same nozzles in the same geometry, asked for the same and counted the same way but on texels of their own, and
+ * told apart by no more than their errors: what else may differ, such as the liquid, would show. */
 static bool same_layout(const sp_figures *a, const sp_figures *b)
 {
     bool same = a->nozzle_count == b->nozzle_count && a->nozzle_count > 0 && a->triangles == b->triangles &&
                 a->area == b->area && !strcmp(a->trajectory, b->trajectory) && !strcmp(a->evaluator, b->evaluator) &&
-                a->reflections == b->reflections &&
+                a->reflections == b->reflections && a->criterion_known && sp_same_criterion(a, b) &&
                 fabs(a->coverage - b->coverage) <= a->error_estimate + b->error_estimate;
     for (size_t i = 0; same && i < a->nozzle_count; i++)
         same = same_nozzle(&a->nozzles[i], &b->nozzles[i]);

@@ -15,7 +15,23 @@ static void print_geometries(const sp_result *result, const sp_figures *figures)
     printf("\n\n");
 }
 
+static void print_criteria(const sp_result *result, const sp_figures *figures)
+{
+    bool one = sp_figures_share_criterion(figures, result->design_count);
+    if (result->design_count < 2 || (one && figures[0].criterion_known))
+        return;
+    if (one)
+        printf("these results do not tell what covered means in them: that may differ");
+    for (size_t i = 0; i < result->design_count && !one; i++) {
+        char clause[SP_CRITERION_TEXT];
+        sp_criterion_clause(&figures[i], clause);
+        printf("%s%s %s", i ? "; " : "the criteria differ in what covered means: ", result->designs[i].name, clause);
+    }
+    printf("\n\n");
+}
+
 void cli_print_differing(const sp_result *result, const sp_figures *figures)
 {
     print_geometries(result, figures);
+    print_criteria(result, figures);
 }

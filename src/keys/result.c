@@ -3,6 +3,7 @@
 
 static const char *const words_trajectory[] = {"line", "parabola", "drag", NULL};
 static const char *const words_evaluator[] = {"forward", "inverse", NULL};
+static const char *const words_combine[] = {"sum", "single", NULL};
 static const char *const words_reason[] = {"no_line_of_reach", "reflection_only", "too_slow",
                                            "too_slanted",      "too_little_flux", NULL};
 static const char *const words_lack[] = {"no_nozzle_in_reach", "too_slow", "too_slanted", "too_little_flux", NULL};
@@ -80,6 +81,16 @@ static const sp_key result_geometry_keys[] = {
     {.name = "account", .kind = SP_KEY_BLOCK, .block = &account, .says = "What was made of the triangles"},
     {.name = NULL}};
 static const sp_block result_geometry = {"result_geometry", "the geometry", NULL, result_geometry_keys};
+
+static const sp_key result_criterion_keys[] = {
+    {.name = "flux_l_min_m2", .kind = SP_KEY_NUMBER, .says = "The least liquid per area and time"},
+    {.name = "dose_l_m2", .kind = SP_KEY_NUMBER, .says = "The least per area of goods that move, in its place"},
+    {.name = "impact_speed_m_s", .kind = SP_KEY_NUMBER, .says = "The least that counts"},
+    {.name = "incidence_rad", .kind = SP_KEY_NUMBER, .says = "The greatest that counts, from the normal"},
+    {.name = "combine", .kind = SP_KEY_CHOICE, .words = words_combine, .says = "As in the scene"},
+    {.name = "film_l_min_m", .kind = SP_KEY_NUMBER, .says = "Or so much film, per metre of width"},
+    {.name = NULL}};
+static const sp_block result_criterion = {"result_criterion", "what covered means", NULL, result_criterion_keys};
 
 static const sp_key chosen_keys[] = {{.name = "trajectory", .kind = SP_KEY_TEXT, .says = "Why"},
                                      {.name = "evaluator", .kind = SP_KEY_TEXT, .says = "Why"},
@@ -246,6 +257,10 @@ static const sp_key result_layout_keys[] = {
      .kind = SP_KEY_BLOCK,
      .block = &result_geometry,
      .says = "As the result's own, where layouts differ in it or, as alternatives do, in what is attainable"},
+    {.name = "criterion",
+     .kind = SP_KEY_BLOCK,
+     .block = &result_criterion,
+     .says = "The same, where they differ in it; absent where it is not known"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "The same"},
     {.name = NULL}};
 static const sp_block result_layout = {"result_layout", "a layout", NULL, result_layout_keys};
@@ -379,6 +394,10 @@ static const sp_key result_keys[] = {
      .kind = SP_KEY_BLOCK,
      .block = &result_geometry,
      .says = "What is to be cleaned: as far as it is that of all layouts"},
+    {.name = "criterion",
+     .kind = SP_KEY_BLOCK,
+     .block = &result_criterion,
+     .says = "What covered means; what is not asked for is absent"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "How it was computed"},
     {.name = "layouts", .kind = SP_KEY_BLOCKS, .block = &result_layout, .says = "One after the other"},
     PROPOSAL,

@@ -20,8 +20,29 @@ static void add_geometries(const sp_page *page, sp_text *text)
     sp_text_add(text, ".</p>\n");
 }
 
+/* Results of older versions do not tell theirs. */
+static void add_criteria(const sp_page *page, sp_text *text, bool one)
+{
+    sp_text_add(text, one ? "<p class=\"warning\"><strong>What covered means is not known.</strong> These results do "
+                            "not tell it, and it may differ"
+                          : "<p class=\"warning\"><strong>The criteria differ.</strong> Covered means: ");
+    for (size_t i = 0; i < page->result->design_count && !one; ++i) {
+        char clause[SP_CRITERION_TEXT];
+        sp_criterion_clause(&page->figures[i], clause);
+        sp_text_add(text, i ? "; " : "");
+        sp_page_narrow_name(page, text, i);
+        sp_text_add(text, " ");
+        sp_markup_escape(text, clause);
+    }
+    sp_text_add(text, ".</p>\n");
+}
+
 void sp_page_differing(const sp_page *page, sp_text *text)
 {
-    if (!sp_figures_share_surface(page->figures, page->result->design_count))
+    size_t count = page->result->design_count;
+    bool one = sp_figures_share_criterion(page->figures, count);
+    if (!sp_figures_share_surface(page->figures, count))
         add_geometries(page, text);
+    if (count > 1 && !(one && page->figures[0].criterion_known))
+        add_criteria(page, text, one);
 }

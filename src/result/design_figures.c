@@ -5,11 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *evaluator)
+static void set_setup(sp_figures *figures, const sp_evaluator *evaluator)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
     bool inverse = fidelity->method == SP_METHOD_INVERSE;
+    figures->criterion_known = true;
+    figures->criterion = sp_evaluator_setup(evaluator)->criterion;
     figures->triangles = mesh->triangle_count;
     figures->area = sp_mesh_area(mesh);
     figures->clean_area = sp_evaluator_patches(evaluator)->total_area;
@@ -252,7 +254,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     size_t shadow_count = 0;
     if (!sp_shadows(design->evaluator, design->coverage, reasons, &shadows, &shadow_count, error))
         return false;
-    set_geometry_and_fidelity(figures, design->evaluator);
+    set_setup(figures, design->evaluator);
     set_attainable(figures, sp_evaluator_patches(design->evaluator), reasons);
     if (reasons)
         figures->attainable_area = fmax(figures->attainable_area, attained);

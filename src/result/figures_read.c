@@ -135,6 +135,37 @@ static bool read_liquid(const sp_json_reader *in, const json_t *layout, sp_figur
            sp_json_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
 }
 
+/* `layout` knows its pass. */
+static bool read_criterion(const sp_json_reader *in, const json_t *object, sp_figures *figures)
+{
+    static const char *const ways[3] = {"sum", "single"};
+    const json_t *found;
+    double flux, dose, speed, incidence, film;
+    char combine[16];
+    if (!sp_json_part(in, object, "criterion", JSON_OBJECT, false, &found))
+        return false;
+    sp_json_reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "criterion.");
+    if (!sp_json_real(&inner, found, "flux_l_min_m2", 0, LARGEST, 1 / 6e4, &flux) ||
+        !sp_json_real(&inner, found, "dose_l_m2", 0, LARGEST, 1e-3, &dose) ||
+        !sp_json_real(&inner, found, "impact_speed_m_s", 0, LARGEST, 1, &speed) ||
+        !sp_json_real(&inner, found, "incidence_rad", 0, M_PI / 2, 1, &incidence) ||
+        !sp_json_choice(&inner, found, "combine", ways, combine) ||
+        !sp_json_real(&inner, found, "film_l_min_m", 0, LARGEST, 1 / 6e4, &film))
+        return false;
+    if (isfinite(dose) && !(figures->pass > 0))
+        return sp_json_wrong(&inner, "dose_l_m2", json_object_get(found, "dose_l_m2"),
+                             "it of a layout with pass_s alone");
+    figures->criterion_known = found;
+    figures->criterion =
+        (sp_criterion){.flux = isfinite(dose) ? dose / figures->pass : fmax(flux, 0),
+                       .impact_speed = fmax(speed, 0),
+                       .incidence = fmin(incidence, M_PI / 2),
+                       .combine = combine[0] == 's' && combine[1] == 'i' ? SP_COMBINE_SINGLE : SP_COMBINE_SUM,
+                       .film = fmax(film, 0)};
+    return true;
+}
+
 /* What a total in money says of water. */
 static bool read_money(const sp_json_reader *in, const json_t *price, double total, sp_water_cost *cost)
 {
@@ -350,9 +381,12 @@ static bool read_layout(const sp_json_reader *in, const json_t *root, const json
         return false;
     if (!figures->name[0])
         return sp_json_wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
-    return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
-           read_film(in, layout, &figures->film) && sp_json_count(in, layout, "new_fittings", &figures->fittings) &&
-           read_price(in, layout, figures) && read_rows(in, layout, figures);
+    bool own_criterion = json_object_get(layout, "criterion");
+    return read_errors(in, layout, figures) && read_coverage(in, layout, figures) &&
+           read_criterion(own_criterion ? in : &top, own_criterion ? layout : root, figures) &&
+           read_liquid(in, layout, figures) && read_film(in, layout, &figures->film) &&
+           sp_json_count(in, layout, "new_fittings", &figures->fittings) && read_price(in, layout, figures) &&
+           read_rows(in, layout, figures);
 }
 
 /* At most so much is made of the text, in bytes: two copies of it, and what jansson and sp_figures need for the least

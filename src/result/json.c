@@ -69,34 +69,41 @@ static bool put_alternatives(json_t *root, const sp_result *result, const sp_fig
     return sp_put(root, "alternatives", alternatives) && done;
 }
 
-/* What the surfaces of all layouts have in common: of what is attainable nothing, where that is not `one`. */
-static bool put_common_geometry(json_t *root, const sp_result *result, const sp_figures *figures, bool one)
+static sp_layout_own differences(const sp_figures *figures, size_t count)
 {
+    sp_layout_own own = {.criterion = !sp_figures_share_criterion(figures, count)};
+    for (size_t i = 1; i < count; ++i) {
+        own.surface = own.surface || !sp_same_surface(&figures[0], &figures[i]);
+        own.geometry = own.geometry || !sp_same_geometry(&figures[0], &figures[i]);
+        own.fidelity = own.fidelity || !sp_same_fidelity(&figures[0], &figures[i]);
+    }
+    return own;
+}
+
+/* What all layouts have in common: where their geometries differ in what is attainable alone, the rest of them. */
+static bool put_common(json_t *root, const sp_result *result, const sp_figures *figures, sp_layout_own own)
+{
+    if (result->design_count == 0)
+        return true;
+    const sp_evaluator *evaluator = result->designs[0].evaluator;
     sp_figures common = figures[0];
-    if (!one)
+    if (own.geometry)
         common.attainable_area = NAN;
-    return sp_put_geometry(root, &common, result->designs[0].evaluator);
+    return (own.surface || sp_put_geometry(root, &common, evaluator)) &&
+           (own.criterion || sp_put_criterion(root, figures)) &&
+           (own.fidelity || sp_put_fidelity(root, figures, result->design_count, evaluator));
 }
 
 static bool fill(json_t *root, const sp_result *result, const sp_figures *figures)
 {
-    bool one_surface = true, one_geometry = true, one_fidelity = true;
-    for (size_t i = 1; i < result->design_count; ++i) {
-        one_surface = one_surface && sp_same_surface(&figures[0], &figures[i]);
-        one_geometry = one_geometry && sp_same_geometry(&figures[0], &figures[i]);
-        one_fidelity = one_fidelity && sp_same_fidelity(&figures[0], &figures[i]);
-    }
+    sp_layout_own own = differences(figures, result->design_count);
     char *scene = sp_text_utf8(result->scene);
-    bool done =
-        scene && sp_put_text(root, "sprayplan", SP_VERSION) && sp_put_text(root, "command", result->command) &&
-        sp_put_text(root, "scene", scene) && put_inputs(root, result) &&
-        (!one_surface || result->design_count == 0 || put_common_geometry(root, result, figures, one_geometry)) &&
-        (!one_fidelity || result->design_count == 0 ||
-         sp_put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));
+    bool done = scene && sp_put_text(root, "sprayplan", SP_VERSION) && sp_put_text(root, "command", result->command) &&
+                sp_put_text(root, "scene", scene) && put_inputs(root, result) && put_common(root, result, figures, own);
     free(scene);
     json_t *layouts = json_array(), *stages = json_array();
     for (size_t i = 0; done && i < result->design_count; ++i)
-        done = sp_put_layout(layouts, &figures[i], result->designs[i].evaluator, !one_geometry, !one_fidelity);
+        done = sp_put_layout(layouts, &figures[i], result->designs[i].evaluator, own);
     done = sp_put(root, "layouts", layouts) && done;
     bool alternatives = sp_result_has_alternatives(result);
     if (result->proposal)

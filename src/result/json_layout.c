@@ -72,6 +72,24 @@ bool sp_put_geometry(json_t *object, const sp_figures *figures, const sp_evaluat
     return sp_put(object, "geometry", geometry) && done;
 }
 
+/* What is asked for; what is not is left out. Of goods that move, the flux of the criterion is their dose's mean. */
+bool sp_put_criterion(json_t *object, const sp_figures *figures)
+{
+    const sp_criterion *asked = &figures->criterion;
+    bool goods = isfinite(figures->pass), single = asked->combine == SP_COMBINE_SINGLE;
+    if (!figures->criterion_known)
+        return true;
+    json_t *criterion = json_object();
+    bool done =
+        (!(asked->flux > 0) || goods || sp_put_real(criterion, "flux_l_min_m2", 6e4 * asked->flux)) &&
+        (!(asked->flux > 0) || !goods || sp_put_real(criterion, "dose_l_m2", 1e3 * asked->flux * figures->pass)) &&
+        (!(asked->impact_speed > 0) || sp_put_real(criterion, "impact_speed_m_s", asked->impact_speed)) &&
+        (!(asked->incidence < M_PI / 2) || sp_put_real(criterion, "incidence_rad", asked->incidence)) &&
+        sp_put_text(criterion, "combine", single ? "single" : "sum") &&
+        (!(asked->film > 0) || sp_put_real(criterion, "film_l_min_m", 6e4 * asked->film));
+    return sp_put(object, "criterion", criterion) && done;
+}
+
 /* The largest of a figure in `count` layouts; NAN where one does not know it. */
 static double worst(const sp_figures *figures, size_t count, size_t offset)
 {
@@ -243,8 +261,7 @@ static bool put_price(json_t *layout, const sp_figures *figures)
     return sp_put(layout, "price", price) && done;
 }
 
-bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, bool own_geometry,
-                   bool own_fidelity)
+bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, sp_layout_own own)
 {
     json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array(), *parts = json_array();
     bool done = sp_put_text(layout, "name", figures->name) && sp_put_real(layout, "water_l_min", 6e4 * figures->flow) &&
@@ -267,8 +284,9 @@ bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluato
     done = sp_put(layout, "parts", parts) && done;
     done = sp_put(layout, "shadows", shadows) && done;
     done = sp_put(layout, "nozzles", nozzles) && done;
-    done = done && (!own_geometry || sp_put_geometry(layout, figures, evaluator)) &&
-           (!own_fidelity || sp_put_fidelity(layout, figures, 1, evaluator));
+    done = done && (!own.geometry || sp_put_geometry(layout, figures, evaluator)) &&
+           (!own.criterion || sp_put_criterion(layout, figures)) &&
+           (!own.fidelity || sp_put_fidelity(layout, figures, 1, evaluator));
     return json_array_append_new(layouts, layout) == 0 && done;
 }
 

@@ -42,8 +42,12 @@ bool sp_same_geometry(const sp_figures *a, const sp_figures *b);
 bool sp_same_fidelity(const sp_figures *a, const sp_figures *b);
 bool sp_put_geometry(json_t *object, const sp_figures *figures, const sp_evaluator *evaluator);
 bool sp_put_fidelity(json_t *object, const sp_figures *figures, size_t count, const sp_evaluator *evaluator);
-bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, bool own_geometry,
-                   bool own_fidelity);
+bool sp_put_criterion(json_t *object, const sp_figures *figures);
+/* What layouts differ in, and each therefore tells of itself. */
+typedef struct {
+    bool surface, geometry, criterion, fidelity;
+} sp_layout_own;
+bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, sp_layout_own own);
 
 /* json_proposal.c. What was found and proved, besides the layout. `clean_area`: m², of which shares are told;
  * `fittings`: with how many nozzles of each point of the front want one. */

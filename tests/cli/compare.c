@@ -69,6 +69,58 @@ static void what_differs_otherwise_keeps_its_own(void **state)
     free(page);
 }
 
+/* What is asked for differs by less than what is covered is off. */
+static void criteria_are_told(void **state)
+{
+    (void)state;
+    outcome done = run_program("compare long/result.json near/result.json -o near2");
+    assert_string_equal(done.err, "");
+    assert_int_equal(done.status, 0);
+    assert_non_null(strstr(done.out, "the criteria differ in what covered means: long/result.json at least 1 L/min/m2; "
+                                     "near/result.json at least 1.001 L/min/m2 by one nozzle alone\n"));
+    forget(&done);
+    char *page = read_file("near2/report.html", NULL);
+    assert_non_null(strstr(page, "<strong>The criteria differ.</strong>"));
+    assert_null(strstr(page, "The same nozzles"));
+    free(page);
+    done = run_program("compare long/result.json short/result.json");
+    assert_null(strstr(done.out, "criteria"));
+    forget(&done);
+}
+
+/* As results were that older versions left. */
+static void write_without_criterion(const char *from, const char *to)
+{
+    char *text = read_file(from, NULL);
+    json_t *object = json_loads(text, 0, NULL);
+    free(text);
+    assert_int_equal(json_object_del(object, "criterion"), 0);
+    text = json_dumps(object, 0);
+    write_file(to, text);
+    free(text);
+    json_decref(object);
+}
+
+static void what_is_not_known_is_told(void **state)
+{
+    (void)state;
+    write_without_criterion("long/result.json", "older.json");
+    write_without_criterion("short/result.json", "oldest.json");
+    run_quietly("compare short/result.json older.json -o ages --quiet");
+    char *page = read_file("ages/report.html", NULL);
+    assert_non_null(strstr(page, "<strong>The criteria differ.</strong>"));
+    assert_non_null(strstr(page, "older.json not told.</p>"));
+    assert_null(strstr(page, "The same nozzles"));
+    free(page);
+    outcome done = run_program("compare older.json oldest.json -o ages");
+    assert_non_null(strstr(done.out, "do not tell what covered means"));
+    forget(&done);
+    page = read_file("ages/report.html", NULL);
+    assert_non_null(strstr(page, "<strong>What covered means is not known.</strong>"));
+    assert_null(strstr(page, "The same nozzles"));
+    free(page);
+}
+
 /* Each share is of its own surface, and each column of the areas that stand before it. */
 static void another_geometry_is_told(void **state)
 {
@@ -126,33 +178,36 @@ static void many_fold(void **state)
     }
 }
 
+/* The room's scene with another text in the place of one that it has, simulated. */
+static void run_changed(const char *name, const char *what, const char *with, int texel)
+{
+    char text[4096], line[256];
+    const char *at = strstr(room_yaml, what);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - room_yaml), room_yaml, with, at + strlen(what));
+    snprintf(line, sizeof line, "%s.yaml", name);
+    write_file(line, text);
+    snprintf(line, sizeof line, "simulate %s.yaml -o %s --quiet --set simulate.texel=%dmm", name, name, texel);
+    run_quietly(line);
+}
+
 static int make_results(void **state)
 {
     if (open_workplace(state) != 0)
         return -1;
-    run_quietly("simulate room.yaml -o long --quiet --set simulate.texel=90mm");
-    run_quietly("simulate room.yaml -o short --quiet --set simulate.texel=60mm");
-    char *room = read_file("room.yaml", NULL), strict[4096];
-    char *flux = strstr(room, "flux: 1 ");
-    snprintf(strict, sizeof strict, "%.*sflux: 4 %s", (int)(flux - room), room, flux + strlen("flux: 1 "));
-    write_file("strict.yaml", strict);
-    char wide[4096];
-    const char *file = strstr(room, "room.obj");
-    snprintf(wide, sizeof wide, "%.*sroom.obj\n    scale: 1.2%s", (int)(file - room), room, file + strlen("room.obj"));
-    write_file("wide.yaml", wide);
-    run_quietly("simulate wide.yaml -o wide --quiet --set simulate.texel=90mm");
-    free(room);
-    run_quietly("simulate strict.yaml -o strict --quiet --set simulate.texel=60mm");
+    run_changed("long", "", "", 90);
+    run_changed("short", "", "", 60);
+    run_changed("strict", "flux: 1 L", "flux: 4 L", 60);
+    run_changed("near", "flux: 1 L/min/m2", "flux: 1.001 L/min/m2, combine: single", 60);
+    run_changed("wide", "file: room.obj", "{file: room.obj, scale: 1.2}", 90);
     return 0;
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_layout_has_one_figure),
-        cmocka_unit_test(what_differs_otherwise_keeps_its_own),
-        cmocka_unit_test(another_geometry_is_told),
-        cmocka_unit_test(many_fold),
+        cmocka_unit_test(one_layout_has_one_figure), cmocka_unit_test(what_differs_otherwise_keeps_its_own),
+        cmocka_unit_test(criteria_are_told),         cmocka_unit_test(what_is_not_known_is_told),
+        cmocka_unit_test(another_geometry_is_told),  cmocka_unit_test(many_fold),
     };
     return cmocka_run_group_tests_name("compare", tests, make_results, close_workplace);
 }

@@ -319,8 +319,8 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     size_t size;
     char *text = read_whole("result.json", &size);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
-    EXPECT_KEYS(all, "sprayplan", "command", "scene", "inputs", "geometry", "fidelity", "layouts", "target", "front",
-                "front_by_nozzles", "stages");
+    EXPECT_KEYS(all, "sprayplan", "command", "scene", "inputs", "geometry", "criterion", "fidelity", "layouts",
+                "target", "front", "front_by_nozzles", "stages");
     EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2",
                 "unattainable_m2", "unattainable_by_part", "account");
     EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "account"), "left_out_triangles", "closed_shells",
@@ -328,6 +328,7 @@ static void result_json_has_the_keys_of_the_contract(void **state)
                 "outdoors_m2");
     EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "unattainable_m2"), "no_line_of_reach",
                 "reflection_only", "too_slow", "too_slanted", "too_little_flux");
+    EXPECT_KEYS(json_object_get(all, "criterion"), "flux_l_min_m2", "incidence_rad", "combine");
     EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m", "error_estimate",
                 "misjudged");
     json_t *layouts = json_object_get(all, "layouts");
@@ -524,6 +525,7 @@ static void figures_survive_the_file(void **state)
                                  b->landed_other, b->left,         b->unfollowed, b->attainable_area};
         for (size_t k = 0; k < sizeof first / sizeof *first; k++)
             same_real(first[k], second[k]);
+        assert_true(a->criterion_known && b->criterion_known && sp_same_criterion(a, b));
         same_rows(a, b);
     }
     sp_figures_destroy(written, 3);

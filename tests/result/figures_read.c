@@ -75,8 +75,37 @@ static void reads_what_design_says(void **state)
     assert_string_equal(figures[1].nozzles[0].order_code, "c");
     assert_string_equal(figures[1].nozzles[0].url, "http://u");
     assert_true(isnan(figures[1].nozzles[0].angle));
+    assert_false(figures[0].criterion_known || figures[1].criterion_known);
     assert_true(figures[1].nozzles[0].position.z == 1.5);
     assert_true(fabs(figures[1].flux_mean - 1e-4) < 1e-18);
+    sp_figures_destroy(figures, count);
+}
+
+/* Of the whole, or of a layout of its own; of goods a dose. What is not there was not asked for. */
+static void reads_what_was_asked_for(void **state)
+{
+    (void)state;
+    sp_error error;
+    size_t count;
+    sp_figures *figures = read_text(
+        "{\"sprayplan\": \"0.1.0\", \"criterion\": {\"flux_l_min_m2\": 6, \"impact_speed_m_s\": 2, \"combine\": "
+        "\"single\"}, \"layouts\": [{" LAYOUT "}, {" LAYOUT ", \"pass_s\": 20, \"criterion\": {\"dose_l_m2\": 2, "
+        "\"incidence_rad\": 1, \"combine\": \"sum\", \"film_l_min_m\": 30}}, {" LAYOUT ", \"criterion\": {}}]}",
+        &count, &error);
+    char clause[SP_CRITERION_TEXT];
+    assert_non_null(figures);
+    assert_true(figures[0].criterion_known && figures[1].criterion_known && figures[2].criterion_known);
+    assert_float_equal(figures[0].criterion.flux, 1e-4, 1e-18);
+    assert_true(figures[0].criterion.incidence == M_PI / 2 && figures[0].criterion.film == 0);
+    assert_float_equal(figures[1].criterion.flux, 1e-4, 1e-18);
+    sp_criterion_clause(&figures[0], clause);
+    assert_string_equal(clause, "at least 6 L/min/m2, at least 2 m/s by one nozzle alone");
+    sp_criterion_clause(&figures[1], clause);
+    assert_string_equal(clause, "at least 2 L/m2, at most 57.3 deg from the normal, or film of at least 30 L/min/m");
+    sp_criterion_clause(&figures[2], clause);
+    assert_string_equal(clause, "any liquid");
+    assert_false(sp_figures_share_criterion(figures, 2));
+    assert_true(sp_figures_share_criterion(figures, 1));
     sp_figures_destroy(figures, count);
 }
 
@@ -130,6 +159,10 @@ static void rejects_bad_input(void **state)
             "layouts[0].error_estimate: found 2");
     rejects("{\"fidelity\": {\"evaluator\": \"magic\"}, \"sprayplan\": \"\", \"layouts\": [{" LAYOUT "}]}",
             "fidelity.evaluator");
+    rejects(HEAD "[{" LAYOUT ", \"criterion\": {\"incidence_rad\": 3}}]}",
+            "layouts[0].criterion.incidence_rad: found 3");
+    rejects(HEAD "[{" LAYOUT ", \"criterion\": {\"combine\": \"most\"}}]}", "layouts[0].criterion.combine");
+    rejects(HEAD "[{" LAYOUT ", \"criterion\": {\"dose_l_m2\": 3}}]}", "layouts[0].criterion.dose_l_m2");
     rejects("{\"sprayplan\": \"\", \"layouts\": [{\"name\": \"a\\u0000b\"}]}", "JSON");
 }
 
@@ -159,9 +192,8 @@ static void rejects_what_is_no_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_what_design_says),
-        cmocka_unit_test(rejects_bad_input),
-        cmocka_unit_test(rejects_every_cut),
+        cmocka_unit_test(reads_what_design_says),  cmocka_unit_test(reads_what_was_asked_for),
+        cmocka_unit_test(rejects_bad_input),       cmocka_unit_test(rejects_every_cut),
         cmocka_unit_test(rejects_what_is_no_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
