@@ -44,6 +44,9 @@ typedef struct {
     double area, covered; /* m² */
 } sp_part_figures;
 
+/* Share of the surface to be cleaned: less that is beyond the allowed nozzles is no more than texels at edges. */
+#define SP_BEYOND_TOLD 0.005
+
 /* What of one part is not attainable. */
 typedef struct {
     char *part;               /* owned */
@@ -66,23 +69,24 @@ typedef struct {
 typedef struct {
     char *name; /* owned */
     size_t triangles;
-    double area, clean_area;                        /* of the geometry, m² */
-    double attainable_area;                         /* m², with whatever a reported layout covers */
-    double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
-    size_t missing_count;                           /* of parts that are not wholly attainable */
-    sp_missing_figures *missing;                    /* owned; those of most area first */
-    bool criterion_known;                           /* false: nothing in `criterion` means anything */
-    sp_criterion criterion;                         /* what was asked for */
-    char trajectory[16], evaluator[16];             /* "line", "parabola" or "drag"; "forward" or "inverse" */
-    size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
-    size_t jets_wanted;                             /* per nozzle, where they are fewer; else unknown */
-    double texel;                                   /* m */
-    double error_estimate, misjudged;               /* of this layout, as sp_measured_error */
-    double error_bound;                             /* of flying along lines, as sp_line_error */
-    double borderline;                              /* m², as sp_borderline */
-    double flow, covered_area;                      /* m³/s, m² */
-    double coverage, of_attainable;                 /* fractions */
-    double area_per_water;                          /* m² per m³/s */
+    double area, clean_area;            /* of the geometry, m² */
+    double attainable_area;             /* m², with whatever a reported layout covers */
+    double beyond_area;                 /* m² of that which a reported layout covers and no allowed nozzle reaches */
+    double missing_area[SP_REASONS];    /* m² that are not attainable, by reason */
+    size_t missing_count;               /* of parts that are not wholly attainable */
+    sp_missing_figures *missing;        /* owned; those of most area first */
+    bool criterion_known;               /* false: nothing in `criterion` means anything */
+    sp_criterion criterion;             /* what was asked for */
+    char trajectory[16], evaluator[16]; /* "line", "parabola" or "drag"; "forward" or "inverse" */
+    size_t reflections, jets;           /* jets: per nozzle, unknown for the inverse evaluator */
+    size_t jets_wanted;                 /* per nozzle, where they are fewer; else unknown */
+    double texel;                       /* m */
+    double error_estimate, misjudged;   /* of this layout, as sp_measured_error */
+    double error_bound;                 /* of flying along lines, as sp_line_error */
+    double borderline;                  /* m², as sp_borderline */
+    double flow, covered_area;          /* m³/s, m² */
+    double coverage, of_attainable;     /* fractions */
+    double area_per_water;              /* m² per m³/s */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
     double pass; /* s, over which goods that move pass, and these are means: times it they are doses; NAN: none move */
     double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */

@@ -252,6 +252,10 @@ static void print_parts(const sp_figures *figures, sp_reason reason)
 static void print_missing(const sp_figures *figures, const sp_proposal *proposal, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
+    if (figures->beyond_area > SP_BEYOND_TOLD * figures->clean_area)
+        printf("%s%sreached by the scene's own nozzles alone, by none that is allowed: %.1f %% of the surface to be "
+               "cleaned, %.4f m2\n",
+               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, figures->beyond_area);
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;

@@ -89,9 +89,26 @@ static void add_allowed(const sp_page *page, sp_text *text)
     sp_markup_escape(text, page->figures[page->main].name);
 }
 
+/* What counts as attainable for the engineer's nozzles alone, which the search had not to choose from. */
+static void add_beyond(const sp_page *page, const sp_figures *figures, sp_text *text)
+{
+    double percent = 100 * figures->beyond_area / figures->clean_area;
+    if (!(figures->beyond_area > SP_BEYOND_TOLD * figures->clean_area))
+        return;
+    sp_text_add(text, "<p id=\"beyond\" class=\"warning\"><strong>");
+    sp_markup_decimals(text, percent, 1);
+    sp_text_add(text,
+                "&nbsp;%% of the surface to be cleaned is reached by the engineer&#39;s own nozzles alone</strong>, "
+                "and by no ");
+    add_allowed(page, text);
+    sp_text_add(text, ": it counts as attainable, and no proposal can cover it.</p>\n");
+}
+
 void sp_page_out_of_reach(const sp_page *page, sp_text *text)
 {
     const sp_figures *figures = known(page);
+    if (figures)
+        add_beyond(page, figures, text);
     double missing = figures ? missing_area(figures) : 0;
     if (!figures || !(missing > NEGLIGIBLE * figures->clean_area))
         return;

@@ -271,8 +271,8 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
 }
 
 /* Why patches are not attainable to what speaks of a design: what that proposal says, but for what the designs that it
- * speaks of cover. Without one NULL and no error. */
-static sp_reason *reported_reasons(const sp_result *result, size_t design, sp_error *error)
+ * speaks of cover, *beyond m² of which it calls out of reach. Without one NULL and no error. */
+static sp_reason *reported_reasons(const sp_result *result, size_t design, double *beyond, sp_error *error)
 {
     const sp_proposal *proposal = sp_result_proposal(result, design);
     const sp_evaluator *evaluator = result->designs[design].evaluator;
@@ -288,8 +288,10 @@ static sp_reason *reported_reasons(const sp_result *result, size_t design, sp_er
                                              : SP_REASON_UNKNOWN;
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; sp_result_proposal(result, i) == proposal && k < patches->count; ++k)
-            if (result->designs[i].coverage->deposits.covered[k])
+            if (result->designs[i].coverage->deposits.covered[k] && reasons[k] != SP_REASON_ATTAINABLE) {
+                *beyond += reasons[k] != SP_REASON_UNKNOWN ? patches->area[k] : 0;
                 reasons[k] = SP_REASON_ATTAINABLE;
+            }
     return reasons;
 }
 
@@ -312,7 +314,7 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
     sp_error failure = {0};
     for (size_t i = 0; failure.kind == SP_OK && i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
-        sp_reason *reasons = design->evaluator ? reported_reasons(result, i, &failure) : NULL;
+        sp_reason *reasons = design->evaluator ? reported_reasons(result, i, &figures[i].beyond_area, &failure) : NULL;
         if (!design->evaluator && !sp_figures_copy(&figures[i], design->figures))
             sp_fail_memory(&failure);
         if (design->evaluator && failure.kind == SP_OK)

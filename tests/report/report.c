@@ -650,6 +650,42 @@ static void what_is_out_of_reach_is_said_first(void **state)
     free(html);
 }
 
+/* What the engineer's nozzles cover counts as attainable; that no allowed nozzle reaches it is told. */
+static void what_own_nozzles_alone_reach_is_told(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_result result = f->result;
+    sp_proposal proposal = f->proposal;
+    const sp_patches *patches = sp_evaluator_patches(f->evaluator);
+    double covered = 0;
+    proposal.attainable = malloc(patches->count * sizeof *proposal.attainable);
+    memset(proposal.attainable, true, patches->count);
+    result.proposal = &proposal;
+    char *html = sp_report_html(&result, &error);
+    assert_null(strstr(html, "id=\"beyond\""));
+    free(html);
+    memset(proposal.attainable, false, patches->count);
+    proposal.reasons = calloc(patches->count, sizeof *proposal.reasons);
+    for (size_t k = 0; k < patches->count; k++) {
+        bool any = false;
+        proposal.reasons[k] = SP_REASON_NO_LINE;
+        for (size_t i = 0; i < result.design_count; i++)
+            any = any || result.designs[i].coverage->deposits.covered[k];
+        covered += any ? patches->area[k] : 0;
+    }
+    sp_figures *figures = sp_result_figures(&result, &error);
+    assert_true(covered > SP_BEYOND_TOLD * patches->total_area);
+    same_real(figures[2].beyond_area, covered);
+    same_real(figures[2].missing_area[SP_REASON_NO_LINE], patches->total_area - covered);
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "<p id=\"beyond\" class=\"warning\">"));
+    free(html);
+    sp_figures_destroy(figures, result.design_count);
+    free(proposal.attainable);
+    free(proposal.reasons);
+}
+
 /* The words of the report are the promise: rounded so that they stay true. */
 static void what_jets_say_otherwise_is_a_warning(void **state)
 {
@@ -788,6 +824,7 @@ int main(void)
         cmocka_unit_test(smaller_pictures_have_the_same_labels),
         cmocka_unit_test(the_legend_leaves_points_alone),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
+        cmocka_unit_test(what_own_nozzles_alone_reach_is_told),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
     };
