@@ -183,6 +183,8 @@ bool sp_certify(const sp_search *search, sp_deadline *deadline, sp_front *front,
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound =
             front->by_water.entries[i].point.every_aim_bound = NAN;
+    if (deadline->cancelled)
+        sp_deadline_cut(deadline, "certificate");
     if (deadline->cancelled || !front->found)
         return true;
     bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&

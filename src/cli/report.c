@@ -24,26 +24,34 @@ static void background_free(background *told)
     free(told->command_line);
 }
 
+/* Of one design; nothing and no error where that is interrupted. */
+static bool find_contributions_of(sp_design *design, sp_error *error)
+{
+    sp_error failure = {0};
+    if (cli_interrupted())
+        return true;
+    design->contributions = sp_contributions_create(design->evaluator, design->layout, design->coverage, &failure);
+    if (design->contributions || failure.kind == SP_ERROR_INTERRUPTED)
+        return true;
+    *error = failure;
+    return false;
+}
+
 /* For what tells of them: a table on standard output does not, and it takes as long as evaluating the layouts. Left out
  * of what is interrupted. */
 static bool find_contributions(const cli_options *options, background *told, sp_error *error)
 {
-    bool asked = options->output || options->json;
-    if (asked && cli_time_left() < LATE * told->pictures) {
-        cli_leave_out(&told->left_out, "what each nozzle brings");
-        return true;
-    }
-    for (size_t i = 0; asked && !cli_interrupted() && i < told->design_count; i++) {
+    bool asked = options->output || options->json, in_time = cli_time_left() >= LATE * told->pictures, whole = true;
+    for (size_t i = 0; asked && i < told->design_count; i++) {
         sp_design *design = &told->designs[i];
-        sp_error failure = {0};
         if (!design->evaluator)
             continue;
-        design->contributions = sp_contributions_create(design->evaluator, design->layout, design->coverage, &failure);
-        if (!design->contributions && failure.kind != SP_ERROR_INTERRUPTED) {
-            *error = failure;
+        if (in_time && !find_contributions_of(design, error))
             return false;
-        }
+        whole = whole && design->contributions;
     }
+    if (!whole)
+        cli_leave_out(&told->left_out, "what each nozzle brings");
     return true;
 }
 

@@ -96,6 +96,19 @@ static void what_was_cut_is_named(const char *folder, const char *said)
     json_decref(result);
 }
 
+static void is_named_as_cut(const char *folder, const char *what)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/result.json", folder);
+    json_t *result = json_file(path), *name;
+    size_t i;
+    bool named = false;
+    json_array_foreach(json_object_get(result, "cut_short"), i, name) named |= !strcmp(json_string_value(name), what);
+    json_decref(result);
+    if (!named)
+        fail_msg("%s is not named", what);
+}
+
 static void out_of_time_place_writes_the_best_so_far(void **state)
 {
     (void)state;
@@ -137,6 +150,8 @@ static void place_survives(int signal, const char *scene, const char *folder)
     char *complaint = read_file(".err", NULL);
     assert_non_null(strstr(complaint, "interrupted"));
     free(complaint);
+    is_named_as_cut(folder, "certificate");
+    is_named_as_cut(folder, "what each nozzle brings");
     proposal_is_whole(folder, true); /* the signal may come before the first nozzle is found */
 }
 
