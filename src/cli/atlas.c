@@ -6,6 +6,17 @@
 
 enum { PAGE_EDGE = 4096 };
 
+/* On which a piece that is as long as an edge of the mesh still fits a page: no other is longer. */
+static double default_texel(const sp_mesh *mesh)
+{
+    double longest = 0;
+    for (size_t t = 0; t < mesh->triangle_count; t++)
+        for (int i = 0; i < 3; i++)
+            longest = fmax(longest, sp_distance(mesh->vertices[mesh->triangles[t][i]],
+                                                mesh->vertices[mesh->triangles[t][(i + 1) % 3]]));
+    return fmax(sqrt(sp_mesh_area(mesh) / (1 << 20)), longest / (PAGE_EDGE - 2));
+}
+
 static void begin(cli_atlas_work *work, sp_mesh *mesh)
 {
     work->mesh = mesh;
@@ -30,7 +41,7 @@ bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *
     cli_progress_stage(options, "charts");
     begin(work, mesh);
     if (!(texel > 0))
-        texel = sqrt(sp_mesh_area(mesh) / (1 << 20));
+        texel = default_texel(mesh);
     work->charts = sp_charts_create(mesh, (PAGE_EDGE - 2) * texel, error);
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
@@ -166,6 +177,14 @@ static void plan(const cli_options *options)
     cli_progress_plan(stages, 0, 0, 1);
 }
 
+/* What makes atlases does not know of files. */
+static int fail(sp_error *error, const char *path)
+{
+    if (error->kind == SP_ERROR_INPUT && !*error->file)
+        snprintf(error->file, sizeof error->file, "%s", cli_input_name(path));
+    return cli_fail(error);
+}
+
 int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
@@ -191,5 +210,5 @@ int cli_atlas(const cli_options *options)
     free(written);
     cli_atlas_clear(&work);
     sp_mesh_destroy(mesh);
-    return good ? EXIT_DONE : cli_fail(&error);
+    return good ? EXIT_DONE : fail(&error, options->inputs[0]);
 }

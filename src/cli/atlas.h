@@ -15,8 +15,8 @@ typedef struct {
     size_t peak_bytes; /* on the heap, beyond the mesh */
 } cli_atlas_work;
 
-/* `texel` in m; 0: √(area/2²⁰). Starts as {0}; to be cleared in any case. Of the options it takes whether progress is
- * told: of the stages charts, texels and figures. */
+/* `texel` in m; 0: √(area/2²⁰), or what fits the longest edge on a page. Starts as {0}; to be cleared in any case. Of
+ * the options it takes whether progress is told: of the stages charts, texels and figures. */
 bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing,
                      sp_error *error);
 /* The same with the texture coordinates of the mesh's own file, in the stages reuse and figures. */

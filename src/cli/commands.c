@@ -95,7 +95,8 @@ const cli_option cli_options_known[] = {
     {CLI_FORCE, 0, "force", NULL, OF(CLI_SIMULATE) | OF(CLI_PLACE),
      "Replace layout.yaml, and those of alternatives, where they were edited since they were written."},
     {CLI_TEXEL, 0, "texel", "L", OF(CLI_ATLAS),
-     "Edge length of a texel, as 10mm or 0.01 (m). Default: a million texels for the surface."},
+     "Edge length of a texel, as 10mm or 0.01 (m). Default: a million texels for the surface, "
+     "fewer where a piece of it is too long for a page of such."},
     {CLI_PACK, 0, "pack", "HOW", OF(CLI_ATLAS),
      "pixels: charts lie in each other's hollows (default); skyline: their boxes do not overlap."},
     {CLI_REUSE, 0, "reuse", NULL, OF(CLI_ATLAS), "Keep the texture coordinates that an OBJ file has."},

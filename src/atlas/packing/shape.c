@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #define MARGIN (1.0 / 64) /* pixels between a chart and its frame */
+#define ROUNDED_UP 1.001  /* so that what is printed in four digits is no less */
 #define WHOLE 1e-6        /* pixels: a chart this near to a whole number of them is laid along their borders */
 
 /* A picture of one shape in the making. */
@@ -100,8 +101,10 @@ static bool frame(const chart *c, uint32_t limit, sp_shape *shape, sp_error *err
         /* Less a part in 10^9: a chart of a whole number of texels is not too large for round-off. */
         if (!(extent * (1 - 1e-9) <= limit))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "a flat piece of the surface of %g m by %g m does not fit a page of %u texels of %g m",
-                           high[0] - low[0], high[1] - low[1], limit, c->texel);
+                           "a flat piece of the surface of %g m by %g m does not fit a page of %u texels of %g m; "
+                           "expected a texel of at least %.4g m",
+                           high[0] - low[0], high[1] - low[1], limit, c->texel,
+                           ROUNDED_UP * sp_greater(high[0] - low[0], high[1] - low[1]) / limit);
         size[k] = (uint32_t)pixels;
         place[k] = (pixels == whole + 2 ? 1 : sp_greater(0, 0.5 * (pixels - extent))) - low[k] / c->texel;
     }
