@@ -236,14 +236,17 @@ static void sink_behind(flood *own, uint32_t cell)
 {
     const sp_film_links *links = own->links;
     uint32_t level = own->height[cell];
+    bool known = false;
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
-        if (own->way[k] != TO)
+        uint32_t other = links->to[k];
+        if (own->way[k] != TO || own->state[other] != RANKED)
             continue;
-        if (own->state[links->to[k]] != RANKED)
-            return;
-        if (own->order->sunk[links->to[k]] && own->level[links->to[k]] > level)
-            level = own->level[links->to[k]];
+        known = true;
+        if (own->order->sunk[other] && own->level[other] > level)
+            level = own->level[other];
     }
+    if (!known)
+        return; /* it is the first of them */
     own->level[cell] = level;
     own->order->sunk[cell] = level > own->height[cell];
     own->order->over[cell] = level + 1 >= own->crest[cell];
