@@ -130,7 +130,7 @@ static void add_scale(const sp_colour_scale *scale, sp_text *text, bool film)
         add_ratio_ticks(scale, text, words->to_unit * scale->low, words->to_unit * scale->high);
     else
         add_even_ticks(scale, text, words->to_unit * scale->high);
-    if (threshold > 0)
+    if (threshold > 0 && scale->style.quantity != SP_QUANTITY_COVERED) /* of which no criterion asks for a share */
         add_criterion(scale, text, threshold, words->unit, film ? 67 : 45);
 }
 

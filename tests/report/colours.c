@@ -175,6 +175,10 @@ static void the_bar_tells_unit_ticks_and_criterion(void **state)
                (const char *const[]){"Impact speed, mean, m/s", "below 8 m/s", "8 m/s or more", NULL});
     expect_bar(f, (sp_picture_style){.quantity = SP_QUANTITY_CHARTS, .wireframe = true},
                (const char *const[]){"Charts of the atlas: each a colour unlike its neighbours'", NULL});
+    sp_text bar = bar_of(f, (sp_picture_style){.quantity = SP_QUANTITY_COVERED}, false);
+    assert_non_null(strstr(bar.text, "Covered share"));
+    assert_null(strstr(bar.text, "asked for"));
+    free(bar.text);
     expect_bar(f, (sp_picture_style){.colours = SP_COLOURS_CIVIDIS}, (const char *const[]){"#00224e", NULL});
 }
 
