@@ -38,6 +38,14 @@ static void add_runs(sp_text *text, const sp_study *study)
         sp_text_add(text, "%s\n", notes[i]);
 }
 
+static void add_slope(sp_text *text, double slope, int width)
+{
+    if (isfinite(slope))
+        sp_text_add(text, "%*.2f", width, slope);
+    else
+        sp_text_add(text, "%*s", width, "-");
+}
+
 static void add_orders(sp_text *text, const sp_study *study)
 {
     enum { WIDTH = 64 };
@@ -50,11 +58,10 @@ static void add_orders(sp_text *text, const sp_study *study)
         sp_words_run(&words, &order->fidelity, !along_texel, along_texel);
         add_name(text, &words, WIDTH);
         sp_text_add(text, " %8s ", along_texel ? "texel" : "jets");
-        if (isfinite(order->error))
-            sp_text_add(text, "%10.2f", order->error);
-        else
-            sp_text_add(text, "%10s", "-");
-        sp_text_add(text, " %11.2f\n", order->misjudged);
+        add_slope(text, order->error, 10);
+        sp_text_add(text, " ");
+        add_slope(text, order->misjudged, 11);
+        sp_text_add(text, "\n");
     }
 }
 

@@ -26,6 +26,21 @@ static void slopes_of_known_series(void **state)
     assert_float_equal(sp_study_slope(steps, zigzag, 4), 0.2, 1e-12);
 }
 
+/* Of a series that misjudges nothing there is none. */
+static void an_order_that_is_not_known_is_a_dash(void **state)
+{
+    (void)state;
+    sp_fidelity fidelity = sp_setup_default().fidelity;
+    sp_study_run run = {.fidelity = fidelity};
+    sp_study_order order = {.fidelity = fidelity, .count = 3, .error = NAN, .misjudged = NAN};
+    const sp_study found = {.run_count = 1, .runs = &run, .order_count = 1, .orders = &order};
+    char *text = sp_study_text(&found, NULL);
+    assert_non_null(strstr(text, "orders of convergence"));
+    assert_non_null(strstr(text, "          -           -\n"));
+    assert_null(strstr(text, "nan"));
+    free(text);
+}
+
 static void the_front_of_a_known_set(void **state)
 {
     (void)state;
@@ -164,6 +179,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_of_known_series),
         cmocka_unit_test(the_front_of_a_known_set),
+        cmocka_unit_test(an_order_that_is_not_known_is_a_dash),
         cmocka_unit_test(jets_are_the_reference_where_walls_throw_back),
         cmocka_unit_test(cancelled_it_keeps_what_there_is),
         cmocka_unit_test(nothing_to_study_is_an_error),
