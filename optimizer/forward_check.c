@@ -66,6 +66,8 @@ bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp
                       sp_forward_check *check, sp_error *error)
 {
     *check = (sp_forward_check){0};
+    if (!layout->count)
+        return true;
     if (!sp_deadline_has_time(deadline, "forward check", 0) || sp_deadline_left(deadline) < SECONDS) {
         sp_deadline_cut(deadline, "forward check");
         return true;

@@ -6,7 +6,7 @@
 
 #include <sprayplan/place.h>
 
-/* Not computed where it is cancelled or too little time is left. */
+/* Not computed where there is no nozzle, it is cancelled or too little time is left. */
 bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_deadline *deadline,
                       sp_forward_check *check, sp_error *error);
 
