@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#define MOST_DECIMALS 9
+#define LEAST 0.5e-9 /* what rounds to more than 0 with these */
+
 static const char *entity(char character)
 {
     switch (character) {
@@ -71,8 +74,8 @@ void sp_markup_decimals(sp_text *text, double value, int decimals)
 void sp_markup_significant(sp_text *text, double value, int digits)
 {
     double size = fabs(value);
-    int decimals = isfinite(value) && size > 0 ? digits - 1 - (int)floor(log10(size) + 1e-9) : 0;
-    sp_markup_decimals(text, value, decimals < 0 ? 0 : decimals > 9 ? 9 : decimals);
+    int decimals = isfinite(value) && size >= LEAST ? digits - 1 - (int)floor(log10(size) + 1e-9) : 0;
+    sp_markup_decimals(text, value, decimals < 0 ? 0 : decimals > MOST_DECIMALS ? MOST_DECIMALS : decimals);
 }
 
 void sp_markup_signed(sp_text *text, double value, int decimals)
