@@ -91,6 +91,7 @@ typedef struct {
     double pass; /* s, over which goods that move pass, and these are means: times it they are doses; NAN: none move */
     double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
     sp_film_balance film;                                /* as sp_coverage */
+    bool shadows_known;                                  /* false: there may be some though none is here */
     size_t shadow_count;                                 /* at most SP_SHADOWS_KEPT, largest first */
     sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;

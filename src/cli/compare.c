@@ -139,6 +139,7 @@ static sp_figures found_by(const sp_figures *other, const sp_figures *own)
     memcpy(figures.missing_area, own->missing_area, sizeof figures.missing_area);
     figures.missing_count = own->missing_count;
     figures.missing = own->missing;
+    figures.shadows_known = own->shadows_known;
     figures.shadow_count = own->shadow_count;
     figures.shadows = own->shadows;
     figures.of_attainable = own->attainable_area > 0 ? fmin(other->covered_area / own->attainable_area, 1) : NAN;

@@ -79,7 +79,7 @@ static double dose_max(const sp_figures *f)
 }
 static double largest(const sp_figures *f)
 {
-    return f->shadow_count ? f->shadows[0].area : 0;
+    return !f->shadows_known ? NAN : f->shadow_count ? f->shadows[0].area : 0;
 }
 
 typedef struct {
@@ -330,7 +330,8 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\" data-design=\"%zu\"><caption>", design);
     sp_page_name(page, text, design);
     if (shown == 0) {
-        sp_text_add(text, ": no uncovered region</caption></table></div>\n");
+        sp_text_add(text, ": %s</caption></table></div>\n",
+                    figures->shadows_known ? "no uncovered region" : "uncovered regions are not told");
         return;
     }
     sp_text_add(text,

@@ -10,7 +10,7 @@ static void set_setup(sp_figures *figures, const sp_evaluator *evaluator)
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
     bool inverse = fidelity->method == SP_METHOD_INVERSE;
-    figures->criterion_known = true;
+    figures->criterion_known = figures->shadows_known = true;
     figures->criterion = sp_evaluator_setup(evaluator)->criterion;
     figures->triangles = mesh->triangle_count;
     figures->area = sp_mesh_area(mesh);

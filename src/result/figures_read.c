@@ -344,6 +344,7 @@ static bool read_rows(const sp_json_reader *in, const json_t *layout, sp_figures
     if (!read_parts(in, layout, figures) || !sp_json_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
         !sp_json_part(in, layout, "nozzles", JSON_ARRAY, true, &nozzles))
         return false;
+    figures->shadows_known = shadows;
     size_t shadow_count = json_array_size(shadows), nozzle_count = json_array_size(nozzles);
     shadow_count = shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT;
     if (!sp_figures_make_rows(figures, shadow_count, nozzle_count))

@@ -261,9 +261,20 @@ static bool put_price(json_t *layout, const sp_figures *figures)
     return sp_put(layout, "price", price) && done;
 }
 
+static bool put_shadows(json_t *layout, const sp_figures *figures)
+{
+    if (!figures->shadows_known)
+        return true;
+    json_t *shadows = json_array();
+    bool done = true;
+    for (size_t i = 0; done && i < figures->shadow_count; ++i)
+        done = put_shadow(shadows, &figures->shadows[i]);
+    return sp_put(layout, "shadows", shadows) && done;
+}
+
 bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, sp_layout_own own)
 {
-    json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array(), *parts = json_array();
+    json_t *layout = json_object(), *nozzles = json_array(), *parts = json_array();
     bool done = sp_put_text(layout, "name", figures->name) && sp_put_real(layout, "water_l_min", 6e4 * figures->flow) &&
                 sp_put_real(layout, "covered_area_m2", figures->covered_area) &&
                 sp_put_real(layout, "coverage", figures->coverage) &&
@@ -275,14 +286,12 @@ bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluato
                 sp_put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
                 sp_put_count(layout, "new_fittings", figures->fittings) && put_price(layout, figures) &&
                 put_dose(layout, figures) && put_liquid(layout, figures) && put_film(layout, &figures->film);
-    for (size_t i = 0; done && i < figures->shadow_count; ++i)
-        done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)
         done = put_nozzle(nozzles, &figures->nozzles[i]);
     for (size_t i = 0; done && i < figures->part_count; ++i)
         done = put_part(parts, &figures->parts[i]);
     done = sp_put(layout, "parts", parts) && done;
-    done = sp_put(layout, "shadows", shadows) && done;
+    done = done && put_shadows(layout, figures);
     done = sp_put(layout, "nozzles", nozzles) && done;
     done = done && (!own.geometry || sp_put_geometry(layout, figures, evaluator)) &&
            (!own.criterion || sp_put_criterion(layout, figures)) &&

@@ -88,13 +88,13 @@ static void criteria_are_told(void **state)
     forget(&done);
 }
 
-/* As results were that older versions left. */
-static void write_without_criterion(const char *from, const char *to)
+/* As results were that older versions or others left: `key` of the whole, or of its first layout, is gone. */
+static void write_without(const char *key, const char *from, const char *to)
 {
     char *text = read_file(from, NULL);
-    json_t *object = json_loads(text, 0, NULL);
+    json_t *object = json_loads(text, 0, NULL), *layout = json_array_get(json_object_get(object, "layouts"), 0);
     free(text);
-    assert_int_equal(json_object_del(object, "criterion"), 0);
+    assert_int_equal(json_object_del(json_object_get(object, key) ? object : layout, key), 0);
     text = json_dumps(object, 0);
     write_file(to, text);
     free(text);
@@ -104,8 +104,8 @@ static void write_without_criterion(const char *from, const char *to)
 static void what_is_not_known_is_told(void **state)
 {
     (void)state;
-    write_without_criterion("long/result.json", "older.json");
-    write_without_criterion("short/result.json", "oldest.json");
+    write_without("criterion", "long/result.json", "older.json");
+    write_without("criterion", "short/result.json", "oldest.json");
     run_quietly("compare short/result.json older.json -o ages --quiet");
     char *page = read_file("ages/report.html", NULL);
     assert_non_null(strstr(page, "<strong>The criteria differ.</strong>"));
@@ -118,6 +118,24 @@ static void what_is_not_known_is_told(void **state)
     page = read_file("ages/report.html", NULL);
     assert_non_null(strstr(page, "<strong>What covered means is not known.</strong>"));
     assert_null(strstr(page, "The same nozzles"));
+    free(page);
+}
+
+static void shadows_that_are_not_told_are_not_nothing(void **state)
+{
+    (void)state;
+    write_without("shadows", "long/result.json", "shadowless.json");
+    json_t *both = expect_json("compare shadowless.json strict/result.json -o dark --json", 0);
+    assert_null(json_object_get(json_array_get(json_object_get(both, "layouts"), 0), "shadows"));
+    json_decref(both);
+    char *page = read_file("dark/report.html", NULL);
+    const char *row = strstr(page, "Largest uncovered region"), *cell = strstr(row, "<td");
+    assert_memory_equal(strchr(cell, '>'), ">\xe2\x80\x93</td>", strlen(">\xe2\x80\x93</td>"));
+    assert_non_null(strstr(page, ": uncovered regions are not told</caption>"));
+    free(page);
+    run_quietly("compare shadowless.json shadowless.json -o dark --quiet");
+    page = read_file("dark/report.html", NULL);
+    assert_null(strstr(page, "Largest uncovered region"));
     free(page);
 }
 
@@ -205,9 +223,13 @@ static int make_results(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_layout_has_one_figure), cmocka_unit_test(what_differs_otherwise_keeps_its_own),
-        cmocka_unit_test(criteria_are_told),         cmocka_unit_test(what_is_not_known_is_told),
-        cmocka_unit_test(another_geometry_is_told),  cmocka_unit_test(many_fold),
+        cmocka_unit_test(one_layout_has_one_figure),
+        cmocka_unit_test(what_differs_otherwise_keeps_its_own),
+        cmocka_unit_test(criteria_are_told),
+        cmocka_unit_test(what_is_not_known_is_told),
+        cmocka_unit_test(shadows_that_are_not_told_are_not_nothing),
+        cmocka_unit_test(another_geometry_is_told),
+        cmocka_unit_test(many_fold),
     };
     return cmocka_run_group_tests_name("compare", tests, make_results, close_workplace);
 }
