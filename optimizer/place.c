@@ -396,6 +396,8 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
                         proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->objective = options->objective;
+    proposal->max_nozzles = options->max_nozzles;
+    proposal->max_water = options->max_water;
     proposal->interrupted = placement->deadline.interrupted;
     proposal->water_lacking = water_lacking(placement->options, &placement->candidates);
     proposal->positions = placement->sites.count;

@@ -184,6 +184,8 @@ typedef struct {
     double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
     bool reached;           /* the proposal covers asked_area within all limits */
     bool interrupted;       /* cancelled or out of time: the best so far */
+    size_t max_nozzles;     /* the options': 0: no limit */
+    double max_water;       /* the options', m³/s: INFINITY: no limit */
     double water_lacking;   /* m³/s, that max_water is short of what the least nozzle takes; 0 where one fits */
     size_t positions,
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */

@@ -211,6 +211,11 @@ SP_API size_t sp_result_proposed(const sp_result *result);
 #define SP_CHOICE_TEXT 120
 SP_API void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT]);
 
+/* What layouts were looked for within, as a clause of plain text: "2 nozzles (max_nozzles) and 40 L/min (max_water)";
+ * "" without such limits. */
+#define SP_LIMITS_TEXT 120
+SP_API void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT]);
+
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
  * what any design on the same evaluator that it speaks of covers. The caller destroys. */
 SP_API sp_figures *sp_result_figures(const sp_result *result, sp_error *error);

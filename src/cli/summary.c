@@ -270,6 +270,10 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
         print_parts(figures, reason);
         printf("\n");
     }
+    char limits[SP_LIMITS_TEXT];
+    sp_limits_clause(proposal, limits);
+    if (limits[0] && figures->missing_area[SP_REASON_FLUX] > 1e-6 * figures->clean_area)
+        printf("  %s: with no more than %s; more may reach more\n", sp_reason_text(SP_REASON_FLUX), limits);
     printf("  at the %zu mounting points looked at; places between them, if any, may reach more\n\n",
            proposal->positions);
 }

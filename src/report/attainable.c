@@ -190,6 +190,35 @@ static void add_table(sp_text *text, const sp_figures *figures)
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
+/* What more nozzles or water might reach is no fault of anything; m². */
+static double add_limited(const sp_page *page, sp_text *text, const sp_figures *figures)
+{
+    const sp_proposal *proposal = sp_result_proposal(page->result, page->main);
+    double limited = figures->missing_area[SP_REASON_FLUX];
+    char limits[SP_LIMITS_TEXT] = "";
+    if (proposal)
+        sp_limits_clause(proposal, limits);
+    if (!limits[0] || !(limited > NEGLIGIBLE * figures->clean_area))
+        return 0;
+    area_unit unit = unit_for(missing_area(figures));
+    sp_text_add(text, " <strong>");
+    sp_markup_decimals(text, unit.per_m2 * limited, unit.decimals);
+    sp_text_add(text,
+                "&nbsp;%s may be out of reach for the limits alone</strong>: liquid gets there as fast and as steep as "
+                "the criterion asks, but too little of it with no more than %s. More than that may reach it.",
+                unit.name, limits);
+    return limited;
+}
+
+static void add_fault(const sp_page *page, sp_text *text, bool all)
+{
+    sp_text_add(text,
+                " What %sis out of reach of every allowed nozzle at the mounting points looked at is a fault of the "
+                "%s or of the mounts allowed, which no choice among them mends: another port, another type of "
+                "nozzle, a change of the part or mounting points closer together would.",
+                all ? "" : "else ", sp_page_cleaned(page));
+}
+
 void sp_page_attainable(const sp_page *page, sp_text *text)
 {
     const sp_figures *figures = known(page);
@@ -206,12 +235,9 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     add_allowed(page, text);
     sp_text_add(text, ", at some allowed place and direction, reaches them as the criterion asks, or %s covers them.",
                 page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
-    if (missing > NEGLIGIBLE * figures->clean_area)
-        sp_text_add(text,
-                    " What is out of reach of every allowed nozzle at the mounting points looked at is a fault of the "
-                    "%s or of the mounts allowed, which no choice among them mends: another port, another type of "
-                    "nozzle, a change of the part or mounting points closer together would.",
-                    sp_page_cleaned(page));
+    double limited = add_limited(page, text, figures);
+    if (missing - limited > NEGLIGIBLE * figures->clean_area)
+        add_fault(page, text, !limited);
     sp_text_add(text, "</p>\n");
     if (missing > NEGLIGIBLE * figures->clean_area)
         add_table(text, figures);

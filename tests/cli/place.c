@@ -121,6 +121,17 @@ static void place_says_whether_the_coverage_asked_for_is_reached(void **state)
     json_decref(object);
 }
 
+/* As much is asked for as one nozzle brings to little of the room. */
+static void limits_are_named_where_they_bind(void **state)
+{
+    (void)state;
+    write_room_with("thirsty.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2}");
+    outcome result = run_program("place thirsty.yaml --set place.max_nozzles=1 --set place.refine=none");
+    assert_non_null(strstr(result.out, "\n  too far for the flux: with no more than 1 nozzle (max_nozzles); more may "
+                                       "reach more\n"));
+    forget(&result);
+}
+
 /* More is asked for than what arrives so steeply allows: what is out of reach comes first, the proposal aims at the
  * share asked for of the rest, and place exits 4. */
 static void what_cannot_be_reached_is_said_first(void **state)
@@ -207,6 +218,7 @@ int main(void)
         cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),
+        cmocka_unit_test(limits_are_named_where_they_bind),
         cmocka_unit_test(what_cannot_be_reached_is_said_first),
         cmocka_unit_test(what_can_be_reached_is_the_target),
         cmocka_unit_test(a_layout_has_one_coverage_wherever_it_is_read),

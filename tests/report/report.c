@@ -686,6 +686,46 @@ static void what_own_nozzles_alone_reach_is_told(void **state)
     free(proposal.reasons);
 }
 
+/* What liquid gets to, and too little of, more nozzles might reach: no fault of the vessel. */
+static void limits_are_told_from_faults(void **state)
+{
+    fixture *f = *state;
+    size_t patches = sp_evaluator_patches(f->evaluator)->count;
+    sp_reason *mixed = malloc(patches * sizeof *mixed), *little = malloc(patches * sizeof *little);
+    sp_proposal proposal = f->proposal;
+    sp_result result = f->result;
+    sp_error error = {0};
+    assert_true(mixed && little);
+    for (size_t i = 0; i < patches; i++) {
+        little[i] = f->proposal.reasons[i] == SP_REASON_ATTAINABLE ? SP_REASON_ATTAINABLE : SP_REASON_FLUX;
+        mixed[i] = i % 2 ? little[i] : f->proposal.reasons[i];
+    }
+    result.proposal = &proposal;
+    result.picture_share = -1;
+    const struct {
+        sp_reason *reasons;
+        size_t nozzles;
+        const char *says, *lacks;
+    } cases[] = {
+        {little, 1, "with no more than 1 nozzle (max_nozzles) and 40 L/min (max_water)", "is a fault of the"},
+        {mixed, 2, "with no more than 2 nozzles (max_nozzles) and 40 L/min (max_water)", " What is out of reach"},
+        {mixed, 2, " What else is out of reach", " What is out of reach"},
+        {f->proposal.reasons, 1, " What is out of reach", "for the limits alone"},
+    };
+    proposal.max_water = 40 / 6e4;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        proposal.reasons = cases[i].reasons;
+        proposal.max_nozzles = cases[i].nozzles;
+        char *html = sp_report_html(&result, &error);
+        assert_non_null(html);
+        assert_non_null(strstr(html, cases[i].says));
+        assert_null(strstr(html, cases[i].lacks));
+        free(html);
+    }
+    free(mixed);
+    free(little);
+}
+
 /* The words of the report are the promise: rounded so that they stay true. */
 static void what_jets_say_otherwise_is_a_warning(void **state)
 {
@@ -825,6 +865,7 @@ int main(void)
         cmocka_unit_test(the_legend_leaves_points_alone),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(what_own_nozzles_alone_reach_is_told),
+        cmocka_unit_test(limits_are_told_from_faults),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
     };

@@ -1,0 +1,19 @@
+/* The limits that layouts were looked for within, where they may be what keeps surface out of reach. */
+#include <sprayplan/result.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT])
+{
+    bool number = proposal->max_nozzles > 0, water = proposal->max_water > 0 && isfinite(proposal->max_water);
+    text[0] = '\0';
+    if (number)
+        snprintf(text, SP_LIMITS_TEXT, "%zu nozzle%s (max_nozzles)", proposal->max_nozzles,
+                 proposal->max_nozzles == 1 ? "" : "s");
+    size_t used = strlen(text);
+    if (water)
+        snprintf(text + used, SP_LIMITS_TEXT - used, "%s%.4g L/min (max_water)", number ? " and " : "",
+                 6e4 * proposal->max_water);
+}
