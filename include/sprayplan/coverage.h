@@ -109,7 +109,7 @@ typedef enum {
 
 /* A connected region without coverage. */
 typedef struct {
-    double area;           /* m² */
+    double area;           /* m², of its patches; no more than all that is not covered */
     sp_vec3 centroid;      /* m */
     uint32_t part;         /* of the mesh: the part with most of the area */
     uint32_t first;        /* its lowest patch */

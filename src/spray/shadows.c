@@ -23,6 +23,7 @@ typedef struct {
     bool *visited;     /* [patches], covered ones too */
     uint32_t *queue;   /* [patches] */
     double *part_area; /* [parts], zero between regions */
+    double uncovered;  /* m², of the whole surface */
 } shadow_search;
 
 /* The part with most of the region's area; of equal ones the lowest number. Leaves part_area zero again. */
@@ -91,7 +92,8 @@ static size_t flood(const sp_patches *patches, uint32_t first, bool *visited, ui
     return members;
 }
 
-/* The region that holds patch `first`. */
+/* The region that holds patch `first`. A patch at the edge of a spray is part of it as a whole or not at all, which
+ * evens out; but it is no larger than all that is not covered. */
 static sp_shadow grow(const shadow_search *search, uint32_t first)
 {
     const sp_patches *patches = &search->evaluator->patches;
@@ -105,6 +107,8 @@ static sp_shadow grow(const shadow_search *search, uint32_t first)
             shadow.reachable_area += patches->area[patch];
     }
     shadow.centroid = sp_scale(shadow.centroid, 1 / shadow.area);
+    shadow.area = fmin(shadow.area, search->uncovered);
+    shadow.reachable_area = fmin(shadow.reachable_area, search->uncovered);
     shadow.part = main_part(search, members);
     shadow.reason = main_reason(search, members);
     shadow.lack = main_lack(search, members);
@@ -157,7 +161,8 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
                             .reasons = reasons,
                             .visited = malloc(patches ? patches * sizeof(bool) : 1),
                             .queue = malloc(patches ? patches * sizeof(uint32_t) : 1),
-                            .part_area = calloc(evaluator->setup.mesh->part_count, sizeof(double))};
+                            .part_area = calloc(evaluator->setup.mesh->part_count, sizeof(double)),
+                            .uncovered = fmax(0, coverage->area - coverage->covered_area)};
     sp_shadow *regions = NULL;
     if (search.visited && search.queue && search.part_area) {
         for (size_t i = 0; i < patches; i++)

@@ -346,6 +346,41 @@ static void can_be_interrupted(void **state)
     sp_mesh_destroy(f.mesh);
 }
 
+/* A cone over a plate leaves one shadow all around it, to which patches at its edge belong whole. */
+static void no_shadow_is_larger_than_all_that_is_dry(void **state)
+{
+    (void)state;
+    shape s = shape_create();
+    shape_part(&s, "plate");
+    shape_sheet(&s, sp_v(-0.5, -0.5, 0), sp_v(1, 0, 0), sp_v(0, 1, 0), 1);
+    fixture f = fixture_of(&s);
+    f.setup.fidelity.method = SP_METHOD_INVERSE;
+    size_t larger = 0;
+    for (int i = 0; i < 8; i++) {
+        f.setup.fidelity.texel = 0.05 + 0.01 * i;
+        sp_nozzle nozzle = nozzle_at(sp_v(0, 0, 0.4), sp_v(0, 0, -1));
+        sp_evaluator *evaluator;
+        sp_coverage *coverage = evaluate(&f, &nozzle, 1, &evaluator);
+        const sp_patches *patches = sp_evaluator_patches(evaluator);
+        sp_shadow *shadows = NULL;
+        size_t count = 0;
+        sp_error error = {0};
+        double whole = 0, dry = coverage->area - coverage->covered_area;
+        assert_true(sp_shadows(evaluator, coverage, NULL, &shadows, &count, &error));
+        assert_int_equal(count, 1);
+        for (size_t p = 0; p < patches->count; p++)
+            whole += coverage->deposits.covered[p] ? 0 : patches->area[p];
+        larger += whole > dry * (1 + 1e-9);
+        assert_true(shadows[0].area <= dry);
+        assert_near(shadows[0].area, fmin(whole, dry), 1e-9);
+        free(shadows);
+        sp_coverage_destroy(coverage);
+        sp_evaluator_destroy(evaluator);
+    }
+    assert_true(larger > 0);
+    sp_mesh_destroy(f.mesh);
+}
+
 /* A cone over a strip leaves both its ends dry: two shadows, the larger one first. */
 static void shadows_are_found(void **state)
 {
@@ -411,6 +446,7 @@ int main(void)
         cmocka_unit_test(same_bytes_for_any_number_of_threads),
         cmocka_unit_test(can_be_interrupted),
         cmocka_unit_test(shadows_are_found),
+        cmocka_unit_test(no_shadow_is_larger_than_all_that_is_dry),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
