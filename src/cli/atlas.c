@@ -5,6 +5,18 @@
 #include <string.h>
 
 enum { PAGE_EDGE = 4096 };
+#define MOST_TEXELS 1e9 /* as an evaluator's */
+
+/* Before charts are made, which may take long too. */
+static bool check_texels(const sp_mesh *mesh, double texel, sp_error *error)
+{
+    double texels = sp_mesh_area(mesh) / (texel * texel);
+    return texels <= MOST_TEXELS ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "found %.3g texels of %g m on a surface of %.4g m2, expected at most %g of them, or another unit of "
+                   "the file's coordinates, as --unit mm",
+                   texels, texel, texels * texel * texel, MOST_TEXELS);
+}
 
 /* On which a piece that is as long as an edge of the mesh still fits a page: no other is longer. */
 static double default_texel(const sp_mesh *mesh)
@@ -42,6 +54,8 @@ bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *
     begin(work, mesh);
     if (!(texel > 0))
         texel = default_texel(mesh);
+    if (!check_texels(mesh, texel, error))
+        return false;
     work->charts = sp_charts_create(mesh, (PAGE_EDGE - 2) * texel, error);
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
@@ -52,14 +66,16 @@ bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *
     return end(options, work, "texels", error);
 }
 
-bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel,
-                     sp_error *error)
+bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, sp_error *error)
 {
     if (!mesh)
         return false;
     cli_progress_stage(options, "reuse");
     begin(work, mesh);
-    work->atlas = sp_atlas_reuse(mesh, path, texel, error);
+    sp_unfolding *file = sp_unfolding_read(options->inputs[0], options->unit, error);
+    const sp_unfolding *files[] = {file};
+    work->atlas = file ? sp_atlas_of_files(mesh, files, 1, options->texel, error) : NULL;
+    sp_unfolding_destroy(file);
     return end(options, work, "reuse", error);
 }
 
@@ -196,8 +212,8 @@ int cli_atlas(const cli_options *options)
     }
     plan(options);
     cli_progress_stage(options, "mesh");
-    sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
-    bool good = (options->reuse ? cli_atlas_reuse(options, &work, mesh, options->inputs[0], options->texel, &error)
+    sp_mesh *mesh = cli_load_mesh(options, &error);
+    bool good = (options->reuse ? cli_atlas_reuse(options, &work, mesh, &error)
                                 : cli_atlas_build(options, &work, mesh, options->texel, options->packing, &error)) &&
                 (!options->output || write_files(&work, options, &written, &error));
     cli_progress_end();

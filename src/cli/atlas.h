@@ -20,8 +20,7 @@ typedef struct {
 bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing,
                      sp_error *error);
 /* The same with the texture coordinates of the mesh's own file, in the stages reuse and figures. */
-bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel,
-                     sp_error *error);
+bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, sp_error *error);
 void cli_atlas_clear(cli_atlas_work *work);
 /* Wall time of all stages, s. */
 double cli_atlas_seconds(const cli_atlas_work *work);

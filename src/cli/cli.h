@@ -30,6 +30,7 @@ typedef struct {
     const char *repair; /* --repair, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
+    double unit;  /* m per unit of the mesh */
     double texel; /* m, 0: not given */
     sp_packing packing;
     bool reuse;
@@ -48,7 +49,8 @@ const char *cli_input_path(const char *path);
 /* False, after a message on standard error, where it would have to be read twice. */
 bool cli_reads_once(const cli_options *options);
 sp_scene *cli_load_scene(const char *path, const cli_options *options, const sp_run *run, sp_error *error);
-sp_mesh *cli_load_mesh(const char *path, sp_error *error);
+/* The mesh that is its only file, in m. */
+sp_mesh *cli_load_mesh(const cli_options *options, sp_error *error);
 /* To be closed, unless it is stdin. */
 FILE *cli_open(const char *path, sp_error *error);
 

@@ -44,17 +44,18 @@ const cli_command cli_commands[CLI_COMMANDS] = {
          "sprayplan study vessel.yaml -o out/study", 1, 1},
     [CLI_ATLAS] = {"atlas", "MESH", "texture atlas alone: the mesh with texture coordinates, and figures",
                    "Unfolds an OBJ, STL or PLY file to a texture atlas and prints how good it is. With -o the mesh is "
-                   "written with its texture coordinates, and a picture of every page beside it.",
-                   "sprayplan atlas vessel.obj -o unfolded.obj --texel 10mm", 1, 1},
+                   "written in m, with its texture coordinates, and a picture of every page beside it.",
+                   "sprayplan atlas vessel.obj -o unfolded.obj --unit mm --texel 10mm", 1, 1},
     [CLI_TRACE] =
         {"trace", "MESH", "nearest hits of given lines or parabolas, as CSV",
          "Prints, for every ray of a file, the triangle that it hits first, where, when, how fast and at what "
-         "angle; nothing but its number for a ray that hits none. Rays and triangles are numbered from 0 as in "
+         "angle, in m and m/s; nothing but its number for a ray that hits none. Rays and triangles are numbered from 0 "
+         "as in "
          "their files.",
-         "sprayplan trace vessel.obj --rays rays.csv --gravity 0,0,-9.81", 1, 1},
+         "sprayplan trace vessel.obj --rays rays.csv --unit mm --gravity 0,0,-9.81", 1, 1},
     [CLI_BENCH] = {"bench", "MESH", "build, trace and atlas timings of every accelerator on a mesh",
                    "Traces the same rays with every accelerator in turn and prints what building and tracing took.",
-                   "sprayplan bench vessel.obj --mode cone", 1, 1},
+                   "sprayplan bench vessel.obj --unit mm --mode cone", 1, 1},
     [CLI_HELP] =
         {"help", "[COMMAND|TOPIC]", "what a command does, or what the keys of a file mean",
          "Of a command prints the same as COMMAND --help; of a topic (scene, catalogue, result, files) every key, "
@@ -94,6 +95,8 @@ const cli_option cli_options_known[] = {
      "Leave the evaluator, by which the page evaluates changed layouts, out of report.html."},
     {CLI_FORCE, 0, "force", NULL, OF(CLI_SIMULATE) | OF(CLI_PLACE),
      "Replace layout.yaml, and those of alternatives, where they were edited since they were written."},
+    {CLI_UNIT, 0, "unit", "UNIT", OF(CLI_ATLAS) | OF(CLI_TRACE) | OF(CLI_BENCH),
+     "The unit of the file's coordinates, such as mm or inch. Default: m."},
     {CLI_TEXEL, 0, "texel", "L", OF(CLI_ATLAS),
      "Edge length of a texel, as 10mm or 0.01 (m). Default: a million texels for the surface, "
      "fewer where a piece of it is too long for a page of such."},

@@ -73,6 +73,17 @@ static bool parse_texel(const char *text, double *texel)
     return true;
 }
 
+/* As a scene's `unit`. */
+static bool parse_unit(const char *text, double *unit)
+{
+    char one[64];
+    sp_error error = {0};
+    int length = snprintf(one, sizeof one, "1 %s", text);
+    if (!*text || length >= (int)sizeof one || !sp_quantity_parse(one, "m", unit, &error) || *unit <= 0)
+        return wrong("--unit", text, "a unit of length such as mm");
+    return true;
+}
+
 static bool parse_packing(const char *text, sp_packing *packing)
 {
     if (strcmp(text, "pixels") && strcmp(text, "skyline"))
@@ -140,6 +151,8 @@ static bool take_option(cli_option_id option, const char *value, cli_options *op
         return true;
     case CLI_SET:
         return parse_override(value, options);
+    case CLI_UNIT:
+        return parse_unit(value, &options->unit);
     case CLI_TEXEL:
         return parse_texel(value, &options->texel);
     case CLI_MEMORY:
@@ -372,8 +385,11 @@ static bool has_inputs(const cli_options *options)
 
 bool cli_parse(int count, char **arguments, cli_options *options)
 {
-    *options = (cli_options){
-        .command = CLI_COMMANDS, .accelerator = SP_ACCELERATOR_BVH, .arguments = arguments, .argument_count = count};
+    *options = (cli_options){.command = CLI_COMMANDS,
+                             .unit = 1,
+                             .accelerator = SP_ACCELERATOR_BVH,
+                             .arguments = arguments,
+                             .argument_count = count};
     reader reader = {arguments, arguments + count, options, 0};
     if (!read_all(&reader))
         return false;

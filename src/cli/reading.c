@@ -40,10 +40,11 @@ sp_scene *cli_load_scene(const char *path, const cli_options *options, const sp_
                                        : sp_scene_load_with(path, overrides, count, run, error);
 }
 
-sp_mesh *cli_load_mesh(const char *path, sp_error *error)
+sp_mesh *cli_load_mesh(const cli_options *options, sp_error *error)
 {
-    return cli_is_standard_input(path) ? sp_mesh_load_stream(stdin, cli_input_name(path), 1, error)
-                                       : sp_mesh_load(path, 1, error);
+    const char *path = options->inputs[0];
+    return cli_is_standard_input(path) ? sp_mesh_load_stream(stdin, cli_input_name(path), options->unit, error)
+                                       : sp_mesh_load(path, options->unit, error);
 }
 
 FILE *cli_open(const char *path, sp_error *error)

@@ -78,7 +78,7 @@ int cli_trace(const cli_options *options)
     static const char *const stages[] = {"mesh", "accelerator", "rays", NULL};
     cli_progress_plan(stages, 0, 0, 1);
     cli_progress_stage(options, "mesh");
-    sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
+    sp_mesh *mesh = cli_load_mesh(options, &error);
     cli_progress_stage(options, "accelerator");
     sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, options->threads, &error) : NULL;
     cli_rays reader = {.path = cli_input_name(options->rays), .file = tracer ? cli_open(options->rays, &error) : NULL};

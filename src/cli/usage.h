@@ -42,6 +42,7 @@ typedef enum {
     CLI_PROVE,
     CLI_NO_LIVE,
     CLI_FORCE,
+    CLI_UNIT,
     CLI_TEXEL,
     CLI_PACK,
     CLI_REUSE,

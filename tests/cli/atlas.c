@@ -1,4 +1,4 @@
-/* sprayplan atlas: texels of its own choice and texels asked for. */
+/* sprayplan atlas: texels of its own choice and texels asked for; and the unit of a mesh. */
 #include "workplace.h"
 
 #include <math.h>
@@ -32,10 +32,39 @@ static void a_long_part_gets_texels_that_fit(void **state)
     json_decref(expect_json("atlas rail.obj --texel 1.466mm --json", 0));
 }
 
+/* Lengths asked for are in m all the same, and so is what is written. */
+static void a_mesh_may_be_in_mm(void **state)
+{
+    (void)state;
+    write_file("mm.obj", "v 0 0 0\nv 1500 0 0\nv 1500 500 0\nv 0 500 0\nf 1 2 3 4\n");
+    json_t *object = expect_json("atlas mm.obj --unit mm --texel 10mm -o m.obj --json", 0);
+    assert_int_equal(json_integer_value(json_object_get(object, "texels")), 150 * 50);
+    json_decref(object);
+    object = expect_json("atlas m.obj --reuse --json", 0);
+    assert_int_equal(json_integer_value(json_object_get(object, "texels")), 150 * 50);
+    assert_true(fabs(json_number_value(json_object_get(object, "texel_m")) - 0.01) < 1e-12);
+    json_decref(object);
+    object = expect_json("atlas m.obj --reuse --unit mm --json", 0);
+    assert_true(fabs(json_number_value(json_object_get(object, "texel_m")) - 1e-5) < 1e-15);
+    json_decref(object);
+}
+
+/* Before anything is unfolded, which could take minutes. */
+static void too_many_texels_are_refused(void **state)
+{
+    (void)state;
+    expect_refused(
+        "atlas room.obj --unit km --texel 10mm",
+        "room.obj: found 6e+10 texels of 0.01 m on a surface of 6e+06 m2, expected at most 1e+09 of them, or "
+        "another unit of the file's coordinates, as --unit mm\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_long_part_gets_texels_that_fit),
+        cmocka_unit_test(a_mesh_may_be_in_mm),
+        cmocka_unit_test(too_many_texels_are_refused),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

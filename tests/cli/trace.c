@@ -27,6 +27,16 @@ static void lines_hit_where_they_must(void **state)
     forget(&result);
 }
 
+static void rays_are_in_m_whatever_the_mesh(void **state)
+{
+    (void)state;
+    write_file("far.csv", "750,250,500,0,0,-2000\n");
+    outcome result = run_program("trace room.obj --rays far.csv --unit km");
+    assert_string_equal(result.out, HEADER "0,0.25,0,0.5,0.25,750,250,0,2000,0\n");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+}
+
 /* From (1/2, 1/4, 1/2) at 1 m/s along x, g = 4: falls 1/2 m in 1/2 s, 1/2 m on: at the foot of the wall; from lower it
  * meets the floor. z = 1/8 - 2 t² = 0 at t = 1/4, with v = (1, 0, -1). */
 static void parabolas_fall(void **state)
@@ -150,6 +160,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_hit_where_they_must),
+        cmocka_unit_test(rays_are_in_m_whatever_the_mesh),
         cmocka_unit_test(parabolas_fall),
         cmocka_unit_test(every_accelerator_and_thread_count_gives_the_same_bytes),
         cmocka_unit_test(json_holds_the_same),

@@ -100,6 +100,10 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"bench room.obj --accel sah", "bench does not take --accel"},
         {"bench", "found 0 file names, expected one"},
         {"check room.yaml --mode cone", "check does not take --mode"},
+        {"atlas room.obj --unit bar", "--unit: found \"bar\", expected a unit of length such as mm"},
+        {"atlas room.obj --unit=", "--unit: found \"\", expected a unit of length such as mm"},
+        {"bench room.obj --unit 3", "--unit: found \"3\", expected a unit of length such as mm"},
+        {"check room.yaml --unit mm", "check does not take --unit"},
         {"atlas room.obj --texel 3s", "--texel: found \"3s\", expected a length above 0"},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {

@@ -47,11 +47,11 @@ static bool read_wish(const cli_options *options, bench_wish *wish)
     return true;
 }
 
-static sp_mesh *load_mesh(const char *path, bench_load *load, sp_error *error)
+static sp_mesh *load_mesh(const cli_options *options, bench_load *load, sp_error *error)
 {
     cli_meter_start();
     double start = sp_now();
-    sp_mesh *mesh = cli_load_mesh(path, error);
+    sp_mesh *mesh = cli_load_mesh(options, error);
     *load = (bench_load){.seconds = sp_now() - start, .peak_bytes = cli_meter_peak()};
     if (mesh)
         load->bytes = mesh->vertex_count * sizeof *mesh->vertices +
@@ -104,7 +104,7 @@ int cli_bench(const cli_options *options)
     if (!read_wish(options, &wish))
         return EXIT_USAGE;
     bench_load loading;
-    sp_mesh *mesh = load_mesh(options->inputs[0], &loading, &error);
+    sp_mesh *mesh = load_mesh(options, &loading, &error);
     bool good = mesh && measure(options, &wish, &loading, mesh, &error);
     sp_mesh_destroy(mesh);
     return good ? EXIT_DONE : cli_fail(&error);
