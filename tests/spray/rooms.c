@@ -397,23 +397,45 @@ static void sheets_and_lids(void **state)
     expect_wet("solid lid", solid_lid, point, 2 * SEGMENTS * 0.5 * 0.5 * c * d + 2 * SEGMENTS * 0.5 * d * 0.98);
 }
 
-static void expect_refused(shape s, sp_vec3 point)
+/* A block stands in the hollow of a tank, or that hollow is not shut; another is, so that the tank is no room. */
+static shape walled_tank(bool shut)
+{
+    shape s = shape_create();
+    shape_part(&s, "tank");
+    shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), false);
+    shape_box(&s, sp_v(0.05, 0.05, 0.05), sp_v(0.1, 0.1, 0.1), true);
+    if (!shut) {
+        shape_sheet(&s, sp_v(0.2, 0.2, 0.2), sp_v(0.6, 0, 0), sp_v(0, 0.6, 0), 1);
+        return s;
+    }
+    shape_box(&s, sp_v(0.2, 0.2, 0.2), sp_v(0.8, 0.8, 0.8), true);
+    shape_part(&s, "block");
+    shape_box(&s, sp_v(0.4, 0.4, 0.4), sp_v(0.6, 0.6, 0.6), false);
+    return s;
+}
+
+static void expect_refused(shape s, sp_vec3 point, const char *why)
 {
     sp_mesh *mesh;
     sp_error error = {0};
     assert_null(evaluator_of(&s, SP_CAVITY_POINT, point, 0.4, 0.03, &mesh, &error));
     assert_int_equal(error.kind, SP_ERROR_INPUT);
     assert_non_null(strstr(error.message, "lies in the material of part"));
+    assert_non_null(strstr(error.message, why));
     sp_mesh_destroy(mesh);
 }
 
 static void a_point_in_steel_is_refused(void **state)
 {
     (void)state;
-    expect_refused(room(), sp_v(-0.05, 0.5, 0.5));
-    expect_refused(piercing_box(), sp_v(0.1, 0.25, 0.5));
-    expect_refused(sheet_piercing_box(), sp_v(0.1, 0.25, 0.5));
-    expect_refused(solid_lid(), sp_v(0.1, 0.1, 1.01));
+    expect_refused(room(), sp_v(-0.05, 0.5, 0.5), "");
+    expect_refused(piercing_box(), sp_v(0.1, 0.25, 0.5), "");
+    expect_refused(sheet_piercing_box(), sp_v(0.1, 0.25, 0.5), "");
+    expect_refused(solid_lid(), sp_v(0.1, 0.1, 1.01), "");
+    expect_refused(walled_tank(true), sp_v(0.5, 0.5, 0.5), "\"block\"; expected");
+    expect_refused(walled_tank(true), sp_v(0.15, 0.5, 0.5), "\"tank\"; expected");
+    expect_refused(walled_tank(false), sp_v(0.5, 0.5, 0.5),
+                   "\"tank\", or in a hollow of it that cannot be told, since it has open edges; expected");
 }
 
 /* At 5 mm, and for any number of threads the same bytes. */

@@ -104,13 +104,41 @@ static void turn_shells(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
     }
 }
 
-/* The part of a body that has the point in it. */
-static const char *body_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point)
+/* The part of the innermost body that has the point in it, which of those that do has the smallest box. */
+static uint32_t part_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point)
+{
+    const sp_shells *shells = &wet->shells;
+    uint32_t part = SP_NONE;
+    double least = INFINITY;
+    for (uint32_t s = 0; s < shells->count; s++) {
+        double size = sp_distance(shells->low[s], shells->high[s]);
+        if (!shells->closed[s] || size >= least || shells->turn[s] * sp_winding_of(wet->solids, point, s) <= 0)
+            continue;
+        part = mesh->part[shells->widest[s]];
+        least = size;
+    }
+    return part;
+}
+
+/* Of a part whose hollow was not closed only the outside is known. */
+static bool has_open_shell(const sp_wet *wet, const sp_mesh *mesh, uint32_t part)
 {
     for (uint32_t s = 0; s < wet->shells.count; s++)
-        if (wet->shells.closed[s] && wet->shells.turn[s] * sp_winding_of(wet->solids, point, s) > 0)
-            return mesh->parts[mesh->part[wet->shells.widest[s]]].name;
-    return "";
+        if (!wet->shells.closed[s] && mesh->part[wet->shells.widest[s]] == part)
+            return true;
+    return false;
+}
+
+static bool fail_in_material(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point, sp_error *error)
+{
+    uint32_t part = part_around(wet, mesh, point);
+    bool open = part != SP_NONE && has_open_shell(wet, mesh, part);
+    return sp_fail(
+        error, SP_ERROR_INPUT, NULL, 0, 0,
+        "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\"%s; expected a point of the "
+        "space where the liquid flies (a room drawn as one shell has its normals inwards)",
+        point.x, point.y, point.z, part == SP_NONE ? "" : mesh->parts[part].name,
+        open ? ", or in a hollow of it that cannot be told, since it has open edges" : "");
 }
 
 static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, double contact, sp_error *error)
@@ -127,11 +155,7 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
     if (setup->cavity != SP_CAVITY_POINT)
         return true;
     sp_vec3 point = setup->cavity_point;
-    return !sp_wet_is_material(wet, point) ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\"; expected a "
-                   "point of the space where the liquid flies (a room drawn as one shell has its normals inwards)",
-                   point.x, point.y, point.z, body_around(wet, setup->mesh, point));
+    return !sp_wet_is_material(wet, point) || fail_in_material(wet, setup->mesh, point, error);
 }
 
 static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
