@@ -47,7 +47,7 @@ static const sp_key account_keys[] = {
      .range = SP_FROM(0),
      .says = "Triangles without area that were merged with others"},
     {.name = "cad_sewn_faces", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Faces of no solid that were sewn"},
-    {.name = "cad_faults", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Faults that may cost surface"},
+    {.name = "cad_faults", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Faults that may cost surface or size"},
     {.name = "closed_shells", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Taken for bodies and rooms"},
     {.name = "turned_shells", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Drawn inside out and turned round"},
     {.name = "open_shells",

@@ -42,8 +42,8 @@ static void add_cad(clause_list *list, const sp_cad_account *cad)
         add(list, true, "%zu CAD face%s of no solid %s sewn to others within %.2g mm", cad->sewn, plural(cad->sewn),
             cad->sewn == 1 ? "is" : "are", 1e3 * cad->sewing);
     if (cad->faults)
-        add(list, true, "%zu fault%s in CAD files may cost surface, the first: %s", cad->faults, plural(cad->faults),
-            cad->fault);
+        add(list, true, "%zu fault%s in CAD files may cost surface or size, the first: %s", cad->faults,
+            plural(cad->faults), cad->fault);
 }
 
 static void add_shells(clause_list *list, const sp_geometry_account *account)

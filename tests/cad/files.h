@@ -33,6 +33,16 @@ static inline void make_cad(const char *what, const char *path, const char *more
     assert_int_equal(system(line), 0);
 }
 
+/* The caller frees. */
+static inline char *read_text(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = calloc(1, 1 << 20);
+    assert_true(file && text && fread(text, 1, (1 << 20) - 1, file) > 0);
+    assert_int_equal(fclose(file), 0);
+    return text;
+}
+
 static inline sp_mesh *load_cad(const char *path, double unit, const sp_cad_options *options, sp_cad_account *account)
 {
     sp_error error = {0};

@@ -63,20 +63,11 @@ static void a_head_keeps_its_edges(void **state)
     }
 }
 
-static char *read_all(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    char *text = calloc(1, 1 << 20);
-    assert_true(file && text && fread(text, 1, (1 << 20) - 1, file) > 0);
-    assert_int_equal(fclose(file), 0);
-    return text;
-}
-
 /* Its ellipses become arcs of nearly a whole turn, which are read as they are. */
 static void spoil(const char *path)
 {
     static const char surface[] = "SURFACE_OF_REVOLUTION('',#";
-    char *text = read_all(path), *at = text;
+    char *text = read_text(path), *at = text;
     char *end = strstr(strstr(text, "\nDATA;"), "\nENDSEC;");
     unsigned curves[8], count = 0;
     FILE *file = fopen(path, "wb");

@@ -61,8 +61,8 @@ static void warn_of_cad(cli_findings *found)
     for (uint32_t i = 0; i <= last; i++) {
         const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
         if (cad && cad->faults)
-            warn(found, "geometry: file %lu has %zu faults that may cost it surface, the first: %s", (unsigned long)i,
-                 cad->faults, cad->fault);
+            warn(found, "geometry: file %lu has %zu faults that may cost it surface or size, the first: %s",
+                 (unsigned long)i, cad->faults, cad->fault);
     }
     for (size_t i = 0; i < mesh->part_count; i++) {
         double body = mesh->parts[i].volume, own = found->part_volume[i];

@@ -2,6 +2,7 @@
  * says. A program of its own, since OpenCASCADE may crash, hang or eat all memory on a bad file. */
 #include "mesh/cad/records.h"
 
+#include "length_unit.h"
 #include "revolved.h"
 #include "soundness.h"
 
@@ -477,6 +478,8 @@ size_t read_step(const char *file, int curves, Model &model, const Message_Progr
     Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
     if (reader.ReadFile(file) != IFSelect_RetDone)
         throw std::runtime_error("found no STEP file, or one that is damaged");
+    if (!sp_cad_states_length_unit(reader.Reader().Model()))
+        model.add_fault("no unit of length is stated, mm are taken");
     sp_cad_halve_revolved(reader.ChangeReader().Model());
     bool any = reader.Transfer(document, range);
     model.add_faults(reader.Reader().WS());
