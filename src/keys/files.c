@@ -109,7 +109,7 @@ static const sp_key swabs_keys[] = {
     {.name = "flux_l_min_m2", .kind = SP_KEY_NUMBER, .says = "All that arrives"},
     {.name = "speed_m_s", .kind = SP_KEY_NUMBER, .says = "Mean"},
     {.name = "incidence_deg", .kind = SP_KEY_NUMBER, .says = "Mean"},
-    {.name = "lack", .kind = SP_KEY_TEXT, .says = "As `lack` of a shadow in result.json"},
+    {.name = "lack", .kind = SP_KEY_TEXT, .says = "As `lack` of a shadow in result.json; empty where it is covered"},
     {.name = NULL}};
 static const sp_block swabs = {"swabs", "columns",
                                "The ten worst places of the layout, at least 5 % of the diagonal apart, equally bad "
