@@ -33,6 +33,10 @@ SP_API void sp_charts_destroy(sp_charts *charts);
  * is, INFINITY where it is flat; bends of opposite sense cancel out. [chart_count]; the caller frees. */
 SP_API double *sp_charts_girth(const sp_charts *charts, const sp_mesh *mesh, sp_error *error);
 
+/* More texels, counted by area, are refused as a unit or a length that cannot be meant: by evaluators and the program.
+ */
+#define SP_ATLAS_TEXELS_MOST 1e9
+
 /* Used pixels side by side in one row of a page. Charts keep a pixel apart, so they are of one chart. */
 typedef struct {
     uint32_t texel; /* of the first pixel; the next pixels have the next texels */

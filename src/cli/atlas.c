@@ -5,17 +5,16 @@
 #include <string.h>
 
 enum { PAGE_EDGE = 4096 };
-#define MOST_TEXELS 1e9 /* as an evaluator's */
 
 /* Before charts are made, which may take long too. */
 static bool check_texels(const sp_mesh *mesh, double texel, sp_error *error)
 {
     double texels = sp_mesh_area(mesh) / (texel * texel);
-    return texels <= MOST_TEXELS ||
+    return texels <= SP_ATLAS_TEXELS_MOST ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "found %.3g texels of %g m on a surface of %.4g m2, expected at most %g of them, or another unit of "
                    "the file's coordinates, as --unit mm",
-                   texels, texel, texels * texel * texel, MOST_TEXELS);
+                   texels, texel, texels * texel * texel, SP_ATLAS_TEXELS_MOST);
 }
 
 /* On which a piece that is as long as an edge of the mesh still fits a page: no other is longer. */

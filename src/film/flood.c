@@ -13,6 +13,7 @@
 #define LEVEL 1e-9  /* of the height of all: cells nearer to each other than this are level */
 #define DEEP 0.05   /* the same: deeper hollows are not filled */
 #define PATIENCE 2  /* texels that the flood rises while a cell waits */
+#define LAG 0.5     /* texels that the flood rises before it goes over a free edge */
 #define SLIGHT 1e-3 /* of a border's length: what runs over it by less across the flow decides nothing */
 
 /* How liquid runs between a cell and another beside it. */
@@ -97,7 +98,7 @@ static bool measure_heights(flood *own)
     return done;
 }
 
-/* Of the free edge that a link leads over; a little below it is round-off. */
+/* The height, as a number, of the free edge that a link leads over. */
 static uint32_t crest_of(const flood *own, const sp_film_link *link)
 {
     return own->step > 0 ? (uint32_t)fmin(HIGHEST, fmax(0, (link->crest - own->low) / own->step)) : 0;
@@ -108,9 +109,10 @@ static void find_crests(flood *own)
     const sp_film_links *links = own->links;
     for (uint32_t i = 0; i < links->count; i++) {
         own->crest[i] = NO_CREST;
-        for (size_t k = links->start[i]; k < links->start[i + 1]; k++)
-            if (sp_film_is_over_rim(&links->links[k]) && crest_of(own, &links->links[k]) < own->crest[i])
-                own->crest[i] = crest_of(own, &links->links[k]);
+        for (size_t k = links->start[i]; k < links->start[i + 1]; k++) {
+            uint32_t crest = sp_film_is_over_rim(&links->links[k]) ? crest_of(own, &links->links[k]) : NO_CREST;
+            own->crest[i] = crest < own->crest[i] ? crest : own->crest[i];
+        }
     }
 }
 
@@ -177,6 +179,13 @@ static uint64_t key_of(const flood *own, uint32_t cell)
     return (uint64_t)own->level[cell] << 33 | (uint64_t)is_still(own, cell) << 32 | cell;
 }
 
+/* How high liquid has to stand to run over that link, a free edge, to a cell. */
+static uint32_t level_over(const flood *own, uint32_t to, size_t link)
+{
+    uint32_t crest = crest_of(own, &own->links->links[link]);
+    return own->order->sunk[to] && own->level[to] > crest ? own->level[to] : crest;
+}
+
 static void take(flood *own, uint32_t cell, uint32_t from, uint32_t level)
 {
     own->state[cell] = REACHED;
@@ -193,26 +202,44 @@ static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
     return sp_heap_push(&own->heap, key_of(own, cell));
 }
 
-/* Over a free edge to the other side of a sheet. Other ways there, which may be lower, are open until its turn. */
+/* Over a free edge to the other side of a sheet, a little later than its height says: by then what the edges beside it
+ * lead to has its rank, though its points lie higher, and other ways there, which may be lower, have been found. */
 static bool reach_over(flood *own, uint32_t cell, size_t k)
 {
-    uint32_t level = crest_of(own, &own->links->links[k]), other = own->links->to[k];
+    uint32_t other = own->links->to[k];
     if (own->state[other] != DRY)
         return true;
-    level = level > own->level[cell] ? level : own->level[cell];
-    return sp_heap_push(&own->heap, (uint64_t)level << 33 | (uint64_t)1 << 32 | other);
+    uint64_t turn = level_over(own, cell, k);
+    if (own->step > 0)
+        turn = (uint64_t)fmin(HIGHEST, (double)turn + LAG * own->surface->cells->length[other] / own->step);
+    return sp_heap_push(&own->heap, turn << 33 | (uint64_t)1 << 32 | other);
 }
 
-/* Of a cell that no other way led to before its turn. */
-static void come_over(flood *own, uint32_t cell, uint32_t level)
+/* Of a cell that no other way led to before its turn: over the lowest of its edges that the flood has come to. */
+static void come_over(flood *own, uint32_t cell)
 {
     const sp_film_links *links = own->links;
-    size_t k = links->start[cell];
-    while (!sp_film_is_over_rim(&links->links[k]) || own->state[links->to[k]] != RANKED)
-        k++;
-    assert(k < links->start[cell + 1]);
-    take(own, cell, links->to[k], level);
-    own->order->over[cell] = true;
+    uint32_t from = SP_NONE, least = UINT32_MAX;
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
+        const sp_film_link *link = &links->links[k];
+        uint32_t other = links->to[k], level = sp_film_is_over_rim(link) ? level_over(own, other, k) : UINT32_MAX;
+        if (own->state[other] == RANKED && level < least) {
+            from = other;
+            least = level;
+        }
+    }
+    assert(from != SP_NONE);
+    take(own, cell, from, least);
+}
+
+/* True where the flood came to the cell over a free edge. */
+static bool has_come_over(const flood *own, uint32_t cell)
+{
+    const sp_film_links *links = own->links;
+    bool over = false;
+    for (size_t k = links->start[cell]; own->crest[cell] != NO_CREST && k < links->start[cell + 1]; k++)
+        over = over || (sp_film_is_over_rim(&links->links[k]) && links->to[k] == own->order->parent[cell]);
+    return over;
 }
 
 /* True where all that the cell runs to has its rank and lies in no hollow: then it lies in none, whatever its point. */
@@ -249,7 +276,6 @@ static void sink_behind(flood *own, uint32_t cell)
         return; /* it is the first of them */
     own->level[cell] = level;
     own->order->sunk[cell] = level > own->height[cell];
-    own->order->over[cell] = level + 1 >= own->crest[cell];
 }
 
 /* Gives the cell its rank, and goes on to those beside it: what has waited for it alone waits no more. */
@@ -258,12 +284,13 @@ static bool settle(flood *own, uint32_t cell, uint32_t *rank)
     const sp_film_links *links = own->links;
     own->state[cell] = RANKED;
     own->order->rank[cell] = (*rank)++;
-    if (own->order->over[cell])
+    if (has_come_over(own, cell))
         sink_behind(own, cell);
     if (own->order->sunk[cell] && runs_on(own, cell)) {
         own->order->sunk[cell] = false;
         own->level[cell] = own->height[cell];
     }
+    own->order->over[cell] = own->level[cell] + 1 >= own->crest[cell]; /* 1 is round-off */
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
         uint32_t other = links->to[k];
@@ -297,15 +324,16 @@ static bool spread(flood *own, uint32_t *rank)
     while (own->heap.count || own->late.count) {
         bool late = is_late(own);
         uint64_t key = sp_heap_pop(late ? &own->late : &own->heap);
-        uint32_t cell = (uint32_t)key, level = (uint32_t)(key >> 33);
+        uint32_t cell = (uint32_t)key;
         if (own->state[cell] == DRY)
-            come_over(own, cell, level);
-        else if (level != own->level[cell])
+            come_over(own, cell);
+        else if (key >> 33 != own->level[cell])
             continue; /* another way led there */
         bool waits = !late && own->waits[cell] > 0;
         if (waits)
             own->state[cell] = LATE;
-        if (waits ? !sp_heap_push(&own->late, key) : own->state[cell] != RANKED && !settle(own, cell, rank))
+        if (waits ? !sp_heap_push(&own->late, key_of(own, cell))
+                  : own->state[cell] != RANKED && !settle(own, cell, rank))
             return false;
     }
     return true;
@@ -346,7 +374,6 @@ static bool fill(flood *own)
     size_t count = own->links->count;
     uint32_t rank = 0;
     memset(own->state, DRY, count);
-    memset(own->order->over, 0, count);
     count_waits(own);
     for (uint32_t i = 0; i < count; i++)
         if ((own->order->held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&

@@ -9,7 +9,7 @@ typedef struct {
     uint32_t *parent; /* [cells], the cell from which each was reached; SP_NONE where liquid ends */
     bool *sunk;       /* [cells], below the rim that liquid has to rise to */
     bool *held;       /* [cells], where it stands, since no way leads out */
-    bool *over;       /* [cells], reached over the free edge of a sheet, and as high as that liquid stands there */
+    bool *over;       /* [cells], liquid stands there as high as the free edge of a sheet, and runs over it */
 } sp_film_order;
 
 /* Priority flood (Barnes, Lehman, Mulla 2014) over borders and `ends`. Liquid stands at the lowest cell of what no way

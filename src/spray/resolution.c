@@ -15,7 +15,6 @@
 #define PAGE_EDGE 4096 /* texels */
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
-#define MOST_TEXELS 1e9
 #define MOST_POSITIONS 1e5
 #define WELL_WITHIN 0.5 /* of the longest chart that fits a page: shorter ones are as they would be on any page */
 
@@ -79,10 +78,10 @@ static sp_texel_limits texel_limits(const sp_evaluator *evaluator)
 
 static bool check_number(double texel, double texels, sp_error *error)
 {
-    return texels <= MOST_TEXELS ||
+    return texels <= SP_ATLAS_TEXELS_MOST ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel,
-                   texels * texel * texel, texel * sqrt(texels / MOST_TEXELS));
+                   texels * texel * texel, texel * sqrt(texels / SP_ATLAS_TEXELS_MOST));
 }
 
 static bool set_positions(sp_evaluator *evaluator, double texel, sp_error *error)

@@ -69,6 +69,15 @@ static void what_differs_otherwise_keeps_its_own(void **state)
     free(page);
 }
 
+/* What the page says, and what not. */
+static void assert_page(const char *path, const char *says, const char *not_that)
+{
+    char *page = read_file(path, NULL);
+    assert_non_null(strstr(page, says));
+    assert_null(strstr(page, not_that));
+    free(page);
+}
+
 /* What is asked for differs by less than what is covered is off. */
 static void criteria_are_told(void **state)
 {
@@ -79,10 +88,7 @@ static void criteria_are_told(void **state)
     assert_non_null(strstr(done.out, "the criteria differ in what covered means: long/result.json at least 1 L/min/m2; "
                                      "near/result.json at least 1.001 L/min/m2 by one nozzle alone\n"));
     forget(&done);
-    char *page = read_file("near2/report.html", NULL);
-    assert_non_null(strstr(page, "<strong>The criteria differ.</strong>"));
-    assert_null(strstr(page, "The same nozzles"));
-    free(page);
+    assert_page("near2/report.html", "<strong>The criteria differ.</strong>", "The same nozzles");
     done = run_program("compare long/result.json short/result.json");
     assert_null(strstr(done.out, "criteria"));
     forget(&done);
@@ -107,18 +113,12 @@ static void what_is_not_known_is_told(void **state)
     write_without("criterion", "long/result.json", "older.json");
     write_without("criterion", "short/result.json", "oldest.json");
     run_quietly("compare short/result.json older.json -o ages --quiet");
-    char *page = read_file("ages/report.html", NULL);
-    assert_non_null(strstr(page, "<strong>The criteria differ.</strong>"));
-    assert_non_null(strstr(page, "older.json not told.</p>"));
-    assert_null(strstr(page, "The same nozzles"));
-    free(page);
+    assert_page("ages/report.html", "<strong>The criteria differ.</strong>", "The same nozzles");
+    assert_page("ages/report.html", "older.json not told.</p>", "The same nozzles");
     outcome done = run_program("compare older.json oldest.json -o ages");
     assert_non_null(strstr(done.out, "do not tell what covered means"));
     forget(&done);
-    page = read_file("ages/report.html", NULL);
-    assert_non_null(strstr(page, "<strong>What covered means is not known.</strong>"));
-    assert_null(strstr(page, "The same nozzles"));
-    free(page);
+    assert_page("ages/report.html", "<strong>What covered means is not known.</strong>", "The same nozzles");
 }
 
 static void shadows_that_are_not_told_are_not_nothing(void **state)

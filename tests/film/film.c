@@ -19,12 +19,6 @@ static sp_mesh *crowded_room(void)
     return shape_mesh(&s);
 }
 
-static double random_share(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 static int crowd(void **state)
 {
     walls *w = malloc(sizeof *w);

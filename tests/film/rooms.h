@@ -9,6 +9,12 @@
 static const sp_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 static const region everywhere = {{-9, -9, -9}, {9, 9, 9}, {0, 0, 0}};
 
+static inline double random_share(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
 static inline sp_vec3 minus(sp_vec3 v)
 {
     return sp_scale(v, -1);
