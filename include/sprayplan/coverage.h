@@ -46,8 +46,8 @@ typedef struct {
     double dry;   /* share that is not covered by the edges */
     double cells; /* share that cells cover by themselves */
 } sp_wetting;
-/* Whether an arrival meets the criterion by itself, whatever comes with it. */
-static inline bool sp_wetting_alone(double flux, double threshold)
+/* Whether this flux meets the criterion, a threshold of 0 being met by any. */
+static inline bool sp_flux_suffices(double flux, double threshold)
 {
     return flux > 0 && flux >= threshold;
 }
@@ -56,7 +56,7 @@ static inline bool sp_wetting_alone(double flux, double threshold)
 static inline void sp_wetting_add(sp_wetting *wetting, double flux, double threshold, double part, double share,
                                   bool holds)
 {
-    bool alone = sp_wetting_alone(flux, threshold);
+    bool alone = sp_flux_suffices(flux, threshold);
     if (alone && part < 1)
         wetting->cells += part * share;
     else if (alone && share < 1)
@@ -72,7 +72,7 @@ static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
         sp_wetting cells = {0, wetting.cells < 1 - 1e-6 ? 1 - wetting.cells : 0, 0};
         return cells;
     }
-    if (wetting.dry < 1 && wetting.even > 0 && wetting.even >= threshold)
+    if (wetting.dry < 1 && sp_flux_suffices(wetting.even, threshold))
         wetting.dry = 1;
     else if (wetting.dry < 1)
         wetting.even = 0;
@@ -81,7 +81,7 @@ static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
 /* The share covered by all that came together. */
 static inline double sp_wetting_share(const sp_wetting *wetting, double threshold)
 {
-    return wetting->even > 0 && wetting->even >= threshold ? 1 : 1 - wetting->dry;
+    return sp_flux_suffices(wetting->even, threshold) ? 1 : 1 - wetting->dry;
 }
 
 /* Why a patch is not attainable: how near the candidate that comes nearest brings it. */

@@ -121,9 +121,9 @@ static bool suffice(const running *r, size_t i)
     if (r->question == FILM)
         return sp_place_offers_suffice(&all, most ? left : SIZE_MAX, r->water_left,
                                        1 - (double)search->kept_film[r->asked[i]]);
-    bool alone = search->single || search->threshold <= 0;
-    size_t nozzles = most && left < 1 ? 0 : alone ? 1 : most ? left : SIZE_MAX;
-    return sp_place_offers_suffice(&all, nozzles, r->water_left, alone ? 1 : 1 - (double)search->kept_hit[r->asked[i]]);
+    size_t nozzles = most && left < 1 ? 0 : search->alone ? 1 : most ? left : SIZE_MAX;
+    return sp_place_offers_suffice(&all, nozzles, r->water_left,
+                                   search->alone ? 1 : 1 - (double)search->kept_hit[r->asked[i]]);
 }
 
 static void note(const running *r, const sp_evaluator *fine, const bool *attained, sp_reason *reasons)

@@ -131,7 +131,7 @@ static bool set_texels(sp_problem *p, sp_error *error)
     p->cover.area = p->area;
     p->cover.weight = p->weight;
     p->cover.repeats = true;
-    p->cover.whole = !search->kept_film && (search->single || search->threshold <= 0);
+    p->cover.whole = !search->kept_film && search->alone;
     p->cover.threads = sp_threads(&search->options->run);
     return true;
 }

@@ -186,7 +186,7 @@ static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_a
     double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
     double alone = alone_of(posed, flux, &rise);
     assert(share >= 0 && alone >= 0 && alone <= 1);
-    bool sums = !posed->search->single && posed->search->threshold > 0;
+    bool sums = !posed->search->alone;
     arrivals->alone[i] = share * alone;
     arrivals->flux[i] = sums ? share * (1 - alone) * flux : 0;
     for (size_t k = 0; arrivals->alone_slope && k < posed->parameters->count; k++) {

@@ -48,7 +48,7 @@ static void miss_of_hits(const sp_smooth_objective *smooth, size_t patch, sp_smo
         for (size_t k = l; k < end; k++)
             sum += smooth->nozzles[smooth->links[k].nozzle].arrivals.flux[smooth->links[k].arrival];
     }
-    if (search->single || search->threshold <= 0 || sum <= 0)
+    if (search->alone || sum <= 0)
         return;
     double widths = log(sum) / smooth->width.coverage;
     if (widths < -SURE)

@@ -74,7 +74,7 @@ static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_ar
             s->arriving[first->patch] += brings;
         if (arrival->passes)
             sp_wetting_add(&wetting, flux, threshold, arrival->part, share,
-                           !sp_wetting_alone(flux, threshold) &&
+                           !sp_flux_suffices(flux, threshold) &&
                                sp_spray_holds(&pattern->spray, &pattern->frame, arrival->direction));
     }
     sp_wetting settled = sp_wetting_settle(wetting, threshold);

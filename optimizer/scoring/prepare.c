@@ -120,6 +120,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .view_area = sp_evaluator_patches(visibility->evaluator)->total_area,
                           .plenty = threshold * sp_evaluator_patches(visibility->evaluator)->total_area,
                           .single = criterion->combine == SP_COMBINE_SINGLE,
+                          .alone = criterion->combine == SP_COMBINE_SINGLE || threshold <= 0,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     bool done = set_patches(search, error) && kept_create(search, false, error) &&
                 sp_footprints_create(search, &search->footprints, error);

@@ -33,6 +33,7 @@ typedef struct {
     double plenty;    /* m³/s that cover all that the views show, spread evenly; 0: any liquid */
     double view_area; /* m² of all patches that the views show: of a unit of their transfers */
     bool single;      /* one nozzle alone must cover */
+    bool alone;       /* one nozzle covers or none does: single, or any liquid is enough */
     float credit;     /* worth of an uncovered patch per share of the threshold that it has */
     const sp_sweep_set *sweeps;
     size_t kept_count;

@@ -1,6 +1,7 @@
 /* What all nozzles bring together, from what each brings alone. */
 #include "live/numbers.h"
 #include "live/state.h"
+#include "spray/criterion.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,14 +55,14 @@ bool sp_live_nozzle_on(sp_live *live, size_t index, sp_nozzle *nozzle)
 
 static void add_patch(const sp_live *live, const sp_deposits *alone, bool again, sp_deposits *all, size_t i)
 {
-    bool single = sp_evaluator_setup(live->evaluator)->criterion.combine == SP_COMBINE_SINGLE;
+    const sp_criterion *criterion = &sp_evaluator_setup(live->evaluator)->criterion;
     all->flux[i] += alone->flux[i];
-    all->counted[i] = single ? fmax(all->counted[i], alone->counted[i]) : all->counted[i] + alone->counted[i];
+    all->counted[i] = sp_combined(criterion, all->counted[i], alone->counted[i]);
     all->speed[i] += alone->speed[i];
     all->speed_max[i] = fmax(all->speed_max[i], alone->speed_max[i]);
     all->incidence[i] += alone->incidence[i];
     all->impact[i] += alone->impact[i];
-    all->even[i] = single ? fmax(all->even[i], alone->even[i]) : all->even[i] + alone->even[i];
+    all->even[i] = sp_combined(criterion, all->even[i], alone->even[i]);
     if (!again)
         all->dry[i] *= alone->dry[i];
 }

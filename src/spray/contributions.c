@@ -1,5 +1,6 @@
 /* What each nozzle does by itself, and what is lost without it. Liquid of one does not depend on the others, whichever
  * way it flies or runs down: what any of them do together follows from what each does alone. */
+#include "spray/criterion.h"
 #include "spray/state/state.h"
 
 #include <stdlib.h>
@@ -79,8 +80,7 @@ static double share_without(const shares *each, size_t nozzle, size_t patch)
         size_t at = i * each->patches + patch;
         if (i == nozzle)
             continue;
-        bool single = criterion->combine == SP_COMBINE_SINGLE;
-        others.even = single ? fmax(others.even, each->even[at]) : others.even + each->even[at];
+        others.even = sp_combined(criterion, others.even, each->even[at]);
         if (each->edges[i])
             others.dry *= each->dry[at];
         film += each->film ? each->film[at] : 0;

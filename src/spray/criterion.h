@@ -26,5 +26,10 @@ static inline bool sp_impact_passes(const sp_criterion *criterion, double speed,
 {
     return sp_is_fast_enough(criterion, speed) && sp_is_steep_enough(criterion, incidence);
 }
+/* What all nozzles so far and one more come to, in the unit of both. */
+static inline double sp_combined(const sp_criterion *criterion, double all, double one)
+{
+    return criterion->combine == SP_COMBINE_SINGLE ? fmax(all, one) : all + one;
+}
 
 #endif

@@ -13,6 +13,7 @@
  * or to end at a roof. */
 #include <sprayplan/deviation.h>
 
+#include "criterion.h"
 #include "nozzle_bodies.h"
 #include "emitter.h"
 #include "near.h"
@@ -265,11 +266,14 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
 
 static double combined(const bounding *b, const double *each)
 {
-    bool single = b->straight.setup.criterion.combine == SP_COMBINE_SINGLE;
+    const sp_criterion *criterion = &b->straight.setup.criterion;
     double all = 0, own = 0; /* of the nozzle in hand */
     for (size_t n = 0; n < b->count; n++) {
-        own = n && b->sprayings[n].body == b->sprayings[n - 1].body ? own + each[n] : each[n];
-        all = single ? fmax(all, own) : all + each[n];
+        own += each[n];
+        if (n + 1 < b->count && b->sprayings[n + 1].body == b->sprayings[n].body)
+            continue;
+        all = sp_combined(criterion, all, own);
+        own = 0;
     }
     return all;
 }
@@ -277,13 +281,13 @@ static double combined(const bounding *b, const double *each)
 static bool is_enough(const bounding *b, const double *least)
 {
     double all = combined(b, least) * (1 - SLACK);
-    return all > 0 && all >= b->straight.setup.criterion.flux;
+    return sp_flux_suffices(all, b->straight.setup.criterion.flux);
 }
 
 static bool is_too_little(const bounding *b, const double *most)
 {
     double all = combined(b, most) * (1 + SLACK);
-    return !(all > 0) || all < b->straight.setup.criterion.flux;
+    return !sp_flux_suffices(all, b->straight.setup.criterion.flux);
 }
 
 /* The flights from a nozzle to the patch that is taken apart. */

@@ -26,7 +26,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         if (!arrival->passes)
             continue;
         counted += mean;
-        bool alone = sp_wetting_alone(flux, setup->criterion.flux);
+        bool alone = sp_flux_suffices(flux, setup->criterion.flux);
         if (emitter->source.evaluator->movers)
             wetting.even = counted; /* what passes by adds up */
         else

@@ -77,7 +77,7 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
     for (size_t i = 0; i < f->count; i++) {
         double *received = &f->received[f->point[i]];
         *received += f->blocked[i] ? 0 : f->flux[i];
-        covered[f->point[i]] = *received > 0 && *received >= threshold;
+        covered[f->point[i]] = sp_flux_suffices(*received, threshold);
     }
 }
 
@@ -90,7 +90,7 @@ static void spray_pass(const sp_emitter *emitter, double flow, const sp_point *p
         if (covered[i])
             continue;
         f->received[i] += sp_point_dose(emitter, flow, &points[i]);
-        covered[i] = f->received[i] > 0 && f->received[i] >= threshold;
+        covered[i] = sp_flux_suffices(f->received[i], threshold);
     }
 }
 
