@@ -64,6 +64,10 @@ SP_API const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 SP_API const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 /* m² of a patch that is to be cleaned: all of it, or none where it is only run over. */
 SP_API double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch);
+/* Whose a patch's surface is: calls `visit` with each piece of it that is to be cleaned, the number of its part and m².
+ * A part may come several times. */
+typedef void sp_part_visitor(void *user, uint32_t part, double area);
+SP_API void sp_evaluator_part_areas(const sp_evaluator *evaluator, uint32_t patch, sp_part_visitor *visit, void *user);
 SP_API const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A
  * triangle that others cross or touch may face it in parts. */

@@ -175,19 +175,32 @@ static bool set_shadows(sp_figures *figures, const sp_design *design, const sp_s
     return copied;
 }
 
+/* Parts while patches are gone through. */
+typedef struct {
+    sp_part_figures *parts; /* [part_count of the mesh] */
+    size_t count;           /* that have any area */
+    double share;           /* of the patch in hand that is covered */
+} part_sum;
+
+static void add_to_part(void *user, uint32_t part, double area)
+{
+    part_sum *sum = user;
+    sum->count += sum->parts[part].area == 0 && area > 0;
+    sum->parts[part].area += area;
+    sum->parts[part].covered += area * sum->share;
+}
+
 static bool set_parts(sp_figures *figures, const sp_design *design)
 {
     const sp_mesh *mesh = sp_evaluator_setup(design->evaluator)->mesh;
     const sp_patches *patches = sp_evaluator_patches(design->evaluator);
     sp_part_figures *all = calloc(mesh->part_count + 1, sizeof *all);
-    size_t count = 0, row = 0;
+    part_sum sum = {.parts = all};
     for (uint32_t k = 0; all && k < patches->count; ++k) {
-        sp_part_figures *part = &all[mesh->part[patches->triangle[k]]];
-        double area = sp_evaluator_counted(design->evaluator, k);
-        count += part->area == 0 && area > 0;
-        part->area += area;
-        part->covered += area * design->coverage->deposits.share[k];
+        sum.share = design->coverage->deposits.share[k];
+        sp_evaluator_part_areas(design->evaluator, k, add_to_part, &sum);
     }
+    size_t count = sum.count, row = 0;
     bool done = all && sp_figures_make_parts(figures, count);
     for (size_t i = 0; done && row < count; ++i)
         if (all[i].area > 0) {
@@ -218,21 +231,36 @@ static int by_area(const void *left, const void *right)
     return strcmp(a->part, b->part);
 }
 
-/* The same by part. */
+/* The same by part, while patches are gone through. */
+typedef struct {
+    sp_missing_figures *parts; /* [part_count of the mesh] */
+    size_t count;              /* of which any is missing */
+    sp_reason reason;          /* of the patch in hand */
+} missing_sum;
+
+static void add_to_missing(void *user, uint32_t part, double area)
+{
+    missing_sum *sum = user;
+    sp_missing_figures *missing = &sum->parts[part];
+    missing->areas[sum->reason] += area;
+    if (sum->reason == SP_REASON_ATTAINABLE || !(area > 0))
+        return;
+    sum->count += missing->area == 0;
+    missing->area += area;
+}
+
 static bool set_missing_parts(sp_figures *figures, const sp_evaluator *evaluator, const sp_reason *reasons)
 {
     const sp_patches *patches = sp_evaluator_patches(evaluator);
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     sp_missing_figures *parts = reasons ? calloc(mesh->part_count + 1, sizeof *parts) : NULL;
-    size_t count = 0;
-    for (size_t k = 0; parts && k < patches->count; ++k) {
-        sp_missing_figures *part = &parts[mesh->part[patches->triangle[k]]];
-        count += reasons[k] != SP_REASON_ATTAINABLE && part->area == 0;
-        part->areas[reasons[k]] += patches->area[k];
-        part->area += reasons[k] != SP_REASON_ATTAINABLE ? patches->area[k] : 0;
+    missing_sum sum = {.parts = parts};
+    for (uint32_t k = 0; parts && k < patches->count; ++k) {
+        sum.reason = reasons[k];
+        sp_evaluator_part_areas(evaluator, k, add_to_missing, &sum);
     }
+    size_t count = sum.count, row = 0;
     bool done = (parts || !reasons) && sp_figures_make_missing(figures, count);
-    size_t row = 0;
     for (size_t i = 0; done && row < count; ++i)
         if (parts[i].area > 0) {
             sp_missing_figures *missing = &figures->missing[row++];

@@ -240,6 +240,69 @@ static void patches_hold_what_is_counted(void **state)
     sp_mesh_destroy(f.mesh);
 }
 
+/* Of all patches: what each part has, and how many patches are of several. */
+typedef struct {
+    double area[3], of_patch;
+    uint32_t last;
+    size_t straddling;
+} part_account;
+
+static void add_part(void *user, uint32_t part, double area)
+{
+    part_account *account = user;
+    assert_true(part < 3 && area > 0);
+    account->straddling += account->last != SP_NONE && account->last != part;
+    account->last = part;
+    account->area[part] += area;
+    account->of_patch += area;
+}
+
+static part_account account_parts(const sp_evaluator *evaluator)
+{
+    part_account account = {.last = SP_NONE};
+    for (uint32_t i = 0; i < sp_evaluator_patches(evaluator)->count; i++) {
+        account.of_patch = 0;
+        account.last = SP_NONE;
+        sp_evaluator_part_areas(evaluator, i, add_part, &account);
+        assert_true(fabs(account.of_patch - sp_evaluator_counted(evaluator, i)) < 1e-12);
+    }
+    return account;
+}
+
+/* A floor of three strips, of which each is a part, under texels that lie across several of them. */
+static void parts_have_their_own_area(void **state)
+{
+    (void)state;
+    static const double from[4] = {0, 0.07, 0.16, 1};
+    static const char *const names[3] = {"left", "middle", "right"};
+    sp_surface surfaces[3] = {{true, 0, 1, false}, {true, 0, 1, false}, {true, 0, 1, false}};
+    shape s = shape_create();
+    for (int k = 0; k < 3; k++) {
+        shape_part(&s, names[k]);
+        shape_sheet(&s, sp_v(from[k], 0, 0), sp_v(from[k + 1] - from[k], 0, 0), sp_v(0, 1, 0), 1);
+    }
+    sp_setup setup = sp_setup_default();
+    sp_mesh *mesh = shape_mesh(&s);
+    setup.mesh = mesh;
+    setup.surfaces = surfaces;
+    sp_error error = {0};
+    setup.fidelity.texel = 0.21;
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    assert_non_null(evaluator);
+    part_account account = account_parts(evaluator);
+    assert_true(account.straddling > 5);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(account.area[k] - (from[k + 1] - from[k])) < 1e-9);
+    sp_evaluator_destroy(evaluator);
+    surfaces[1].clean = false;
+    evaluator = sp_evaluator_create(&setup, &error);
+    assert_non_null(evaluator);
+    account = account_parts(evaluator);
+    assert_true(account.area[1] == 0 && fabs(account.area[0] - from[1]) < 1e-9);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -249,6 +312,7 @@ int main(void)
         cmocka_unit_test(absurd_speeds_are_refused),
         cmocka_unit_test(building_can_be_interrupted),
         cmocka_unit_test(patches_hold_what_is_counted),
+        cmocka_unit_test(parts_have_their_own_area),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
