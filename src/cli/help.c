@@ -12,7 +12,7 @@ static int print_schema(const char *name)
     sp_error error = {0};
     const cli_topic *topic = cli_topic_named(name);
     if (!topic || topic->topic == SP_TOPIC_FILES) {
-        fprintf(stderr, "sprayplan: --schema: found \"%s\", expected scene, catalogue or result\n", name);
+        fprintf(stderr, "sprayplan: help: found \"%s\", expected scene, catalogue or result, which have a schema\n", name);
         return EXIT_USAGE;
     }
     char *schema = sp_topic_schema(topic->topic, &error);
@@ -25,7 +25,7 @@ static int print_schema(const char *name)
 
 int cli_help(const cli_options *options)
 {
-    if (options->schema)
+    if (options->schema || options->json) /* a schema is all of the help that is one JSON object */
         return print_schema(options->input_count ? options->inputs[0] : "scene");
     if (options->input_count == 0) {
         cli_print_usage(stdout);

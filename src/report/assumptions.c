@@ -195,6 +195,23 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
     sp_text_add(text, "</dd>\n");
 }
 
+/* The same of results read from files, of which nothing else is known here, where it is one. */
+static void add_told_criterion(const sp_page *page, sp_text *text)
+{
+    size_t count = page->result->design_count;
+    bool counted = false;
+    for (size_t i = 0; i < count; ++i)
+        counted = counted || page->result->designs[i].evaluator;
+    if (counted || !page->figures[0].criterion_known || !sp_figures_share_criterion(page->figures, count))
+        return;
+    char clause[SP_CRITERION_TEXT];
+    sp_criterion_clause(&page->figures[0], clause);
+    sp_text_add(text, "<dl>\n");
+    add_item(text, "Covered means");
+    sp_markup_escape(text, clause);
+    sp_text_add(text, "</dd>\n</dl>\n");
+}
+
 /* Goods that pass by. */
 static void add_sweep(sp_text *text, const sp_evaluator *evaluator)
 {
@@ -307,6 +324,7 @@ static bool share_evaluator(const sp_page *page)
 void sp_page_assumptions(const sp_page *page, sp_text *text)
 {
     sp_text_add(text, "<section id=\"assumptions\"><h2>Assumptions</h2>\n");
+    add_told_criterion(page, text);
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_evaluator *evaluator = page->result->designs[i].evaluator;
         if (!evaluator || first_on(page, evaluator) < i)

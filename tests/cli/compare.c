@@ -88,10 +88,11 @@ static void criteria_are_told(void **state)
     assert_non_null(strstr(done.out, "the criteria differ in what covered means: long/result.json at least 1 L/min/m2; "
                                      "near/result.json at least 1.001 L/min/m2 by one nozzle alone\n"));
     forget(&done);
-    assert_page("near2/report.html", "<strong>The criteria differ.</strong>", "The same nozzles");
-    done = run_program("compare long/result.json short/result.json");
+    assert_page("near2/report.html", "<strong>The criteria differ.</strong>", "<dt>Covered means</dt>");
+    done = run_program("compare long/result.json short/result.json -o both");
     assert_null(strstr(done.out, "criteria"));
     forget(&done);
+    assert_page("both/report.html", "<dt>Covered means</dt><dd>at least 1 L/min/m2</dd>", "The criteria differ");
 }
 
 /* As results were that older versions or others left: `key` of the whole, or of its first layout, is gone. */

@@ -43,6 +43,9 @@ static void options_stand_anywhere(void **state)
     assert_string_equal(json_string_value(json_object_get(object, "command")), "check");
     json_decref(object);
     expect("-q check -- room.yaml", 0, "", "");
+    object = expect_json("help --json result", 0);
+    assert_non_null(json_object_get(object, "$schema"));
+    json_decref(object);
 }
 
 static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
@@ -59,6 +62,7 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"help catalog", "unknown command or topic \"catalog\"; did you mean catalogue?\n"},
         {"help rain", "unknown command or topic \"rain\"; see sprayplan help\n"},
         {"help check place", "help: found 2 file names"},
+        {"help check --json", "help: found \"check\", expected scene, catalogue or result"},
         {"--json", "found no command"},
         {"place room.yaml --time-limt 3", "unknown option --time-limt; did you mean --time-limit?\n"},
         {"place room.yaml --time 3", "unknown option --time; did you mean --time-limit?\n"},
