@@ -1,6 +1,7 @@
 #include "certificate/certificate.h"
 
 #include "certificate/aim_bound.h"
+#include "certificate/every_bound.h"
 #include "certificate/front_bounds.h"
 
 #include <assert.h>
@@ -155,7 +156,8 @@ static bool certify(sp_certifying *c, sp_front *front, sp_certificate *certifica
 {
     size_t water = sp_problem_budget(&c->problem, front->best.outlay);
     double area = sp_partial_counted(c->problem.search, &front->best);
-    if (!lower_all(c, water, area, error))
+    bool known;
+    if (!sp_bound_by_every_layout(c, &known, error) || (!known && !lower_all(c, water, area, error)))
         return false;
     if (!c->bound.proofs)
         return true;
@@ -167,7 +169,7 @@ static bool certify(sp_certifying *c, sp_front *front, sp_certificate *certifica
     bool aims = !c->problem.search->runoffs && !c->problem.search->footprints;
     if (aims && !sp_aim_bound(&task, front, certificate, error))
         return false;
-    if (!c->problem.search->options->prove)
+    if (known || !c->problem.search->options->prove)
         return true;
     bool done = prove(c, water, area, error);
     conclude(c, front, certificate);

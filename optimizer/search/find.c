@@ -2,6 +2,7 @@
 
 #include "scoring/prepare.h"
 #include "scoring/partial_packing.h"
+#include "search/best_of_every.h"
 #include "search/fewest.h"
 #include "search/partial_enumeration.h"
 #include "search/walk.h"
@@ -167,7 +168,7 @@ static bool share_partials(const sp_finding *finding, sp_partial *partials, size
 
 static bool measure_all(const sp_finding *finding, const sp_partial *partials, size_t count)
 {
-    const sp_partial **each = malloc((count + 1) * sizeof *each);
+    const sp_partial **each = calloc(count + 1, sizeof *each);
     sp_front_point *points = malloc((count + 1) * sizeof *points);
     bool done = (each && points) || sp_fail_memory(finding->error);
     for (size_t i = 0; done && i < count; i++)
@@ -302,6 +303,20 @@ static bool fill_front(const sp_finding *finding, const sp_partial *greedy)
     return done;
 }
 
+/* Whatever was found so far, the best of all layouts where they are few. */
+static bool try_every_layout(const sp_finding *finding)
+{
+    sp_partial *partials;
+    size_t count;
+    bool done = sp_best_of_every_layout(finding->search, finding->front, finding->budget, finding->deadline, &partials,
+                                        &count, finding->error) &&
+                measure_all(finding, partials, count);
+    for (size_t i = 0; i < count; i++)
+        sp_partial_free(&partials[i]);
+    free(partials);
+    return done;
+}
+
 static sp_finding finding_of(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
                              sp_error *error)
 {
@@ -369,7 +384,7 @@ bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *fron
     done = done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
            fill_front(&finding, first) &&
            sp_find_fewest(search, &gains, first, finding.budget, deadline, front, error) &&
-           sp_deadline_stage(deadline, "front", error);
+           try_every_layout(&finding) && sp_deadline_stage(deadline, "front", error);
     sp_pool_gains_free(&gains);
     return done;
 }

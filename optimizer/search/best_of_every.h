@@ -1,0 +1,14 @@
+/* The best of every layout, where there are few: nothing that greedy orders, exchanges and walks may have missed is
+ * left out then. */
+#ifndef OPTIMIZER_BEST_OF_EVERY_H
+#define OPTIMIZER_BEST_OF_EVERY_H
+
+#include "search/every_layout.h"
+#include "search/front.h"
+
+/* Those worth measuring within an outlay of `budget` (m³/s): the front by water, by number of nozzles, and the best by
+ * the objective. partials [*count], which the caller frees one by one and as a whole; none where layouts are many. */
+bool sp_best_of_every_layout(const sp_search *search, const sp_front *front, double budget, sp_deadline *deadline,
+                             sp_partial **partials, size_t *count, sp_error *error);
+
+#endif
