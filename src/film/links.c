@@ -1,6 +1,7 @@
 #include "film/links.h"
 
 #include "atlas/texels/borders.h"
+#include "mesh/diagnosis/flaw.h"
 #include "mesh/grow.h"
 #include "mesh/lesser.h"
 
@@ -14,6 +15,9 @@ typedef struct {
     uint32_t cell[2];
     double across[2], length, crest;
 } piece;
+
+#define CRACK 0.02 /* of the wave, half a millimetre of water, the thickness of a film: it goes on over such a crack   \
+                    */
 
 enum { RECENT = 4096 };
 
@@ -157,7 +161,9 @@ static bool find_borders(gathering *own, sp_error *error)
         if (own->wet[atlas->chart[t]])
             own->tangents[t] = sp_film_tangent(own->normals[t], own->surface->down);
     }
-    return sp_atlas_visit_borders(atlas, mesh, own->wet, own->normals, take_border, own, error);
+    sp_vec3 low, high;
+    double crack = sp_lesser(SP_CRACK * sp_mesh_box(mesh, &low, &high), CRACK * own->surface->wave);
+    return sp_atlas_visit_borders(atlas, mesh, crack, own->wet, own->normals, take_border, own, error);
 }
 
 /* What leads out of one cell, on its way into the links. */

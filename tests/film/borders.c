@@ -51,7 +51,7 @@ static bool visit_all(const bordered *b, sp_border_visitor *visit, void *user, s
     memset(asked, true, b->atlas->chart_count);
     for (uint32_t t = 0; t < b->mesh->triangle_count; t++)
         normals[t] = sp_triangle_normal(b->mesh, t);
-    bool done = sp_atlas_visit_borders(b->atlas, b->mesh, asked, normals, visit, user, error);
+    bool done = sp_atlas_visit_borders(b->atlas, b->mesh, 0, asked, normals, visit, user, error);
     free(normals);
     free(asked);
     return done;

@@ -1,4 +1,5 @@
 #include "atlas/texels/borders.h"
+#include "mesh/cracks.h"
 #include "mesh/lesser.h"
 #include "atlas/texels/texels.h"
 
@@ -14,6 +15,7 @@ typedef struct {
     const sp_vec3 *normals; /* [triangles] */
     sp_border_visitor *visit;
     void *user;
+    sp_cracks cracks;
 } walk;
 
 /* One triangle on its page, and how far one goes on the surface for a pixel along x and along y. */
@@ -149,7 +151,7 @@ typedef struct {
     const walk *walk;
     sp_edge_walk *edge;
     uint32_t a, b;
-    sp_vec3 out_of_a, out_of_b; /* along the whole edge */
+    sp_vec3 out_of_a, out_of_b; /* along the whole way */
 } fold;
 
 static fold fold_of(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
@@ -177,8 +179,9 @@ static bool visit_piece(const fold *f, sp_border border)
     border.outward[0] = sp_scale(f->out_of_a, part);
     border.outward[1] = sp_scale(f->out_of_b, part);
     if (ends) {
-        border.at[0] = point_on(f->walk->mesh, f->a, edge->from);
-        border.at[1] = point_on(f->walk->mesh, f->a, edge->to);
+        double start = edge->way[0][0], length = edge->way[0][1] - start;
+        border.at[0] = point_on(f->walk->mesh, f->a, start + edge->from * length);
+        border.at[1] = point_on(f->walk->mesh, f->a, start + edge->to * length);
     }
     return f->walk->visit(f->walk->user, &border);
 }
@@ -228,12 +231,47 @@ static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *own, const
     return true;
 }
 
+/* Parts of an open edge: they end the surface, where `a` is `b`, or lie at a crack. */
+static bool visit_part(const walk *w, sp_edge_walk *edge, uint32_t a, const double on_a[2], uint32_t b,
+                       const double on_b[2])
+{
+    fold f = fold_of(w, edge, a, b);
+    f.out_of_a = sp_scale(f.out_of_a, on_a[1] - on_a[0]);
+    f.out_of_b = sp_scale(f.out_of_b, fabs(on_b[1] - on_b[0]));
+    sp_border both = {.on_front = true, .on_back = true, .turned = a != b && on_b[0] < on_b[1]};
+    if (!sp_edge_walk_begin_on(edge, w->atlas, a, on_a, b, on_b))
+        return false;
+    while (sp_edge_walk_next(edge, w->atlas))
+        if (!visit_piece(&f, both))
+            return false;
+    return true;
+}
+
 static bool is_asked(const walk *w, const uint32_t *half_edges, size_t count)
 {
     bool any = false;
     for (size_t i = 0; i < count; i++)
         any = any || w->asked[w->atlas->chart[half_edges[i] / 3]];
     return any;
+}
+
+/* An open edge with cracks, at sides [first] up to `end` of these: each is visited with the first of its half-edges. */
+static bool visit_cracked(const walk *w, sp_edge_walk *edge, uint32_t half_edge, size_t first, size_t end)
+{
+    bool own = is_asked(w, &half_edge, 1), done = true;
+    double rest[2] = {0, 0};
+    for (size_t i = first; done && i <= end; i++) {
+        rest[1] = i < end ? w->cracks.sides[i].from : 1;
+        if (own && rest[0] < rest[1])
+            done = visit_part(w, edge, half_edge, rest, half_edge, rest);
+        if (i == end)
+            break;
+        const sp_crack *crack = &w->cracks.cracks[w->cracks.sides[i].crack];
+        if (done && crack->half_edge[0] == half_edge && is_asked(w, crack->half_edge, 2))
+            done = visit_part(w, edge, half_edge, crack->part[0], crack->half_edge[1], crack->part[1]);
+        rest[0] = w->cracks.sides[i].to;
+    }
+    return done;
 }
 
 static bool visit_leaves(const walk *w, sp_edge_walk *edge, const uint32_t *half_edges, size_t count, leaf *leaves)
@@ -247,32 +285,41 @@ static bool visit_leaves(const walk *w, sp_edge_walk *edge, const uint32_t *half
     return true;
 }
 
-static bool visit_edges(const walk *w, sp_error *error)
+static bool visit_edge(const walk *w, sp_edge_walk *edge, const uint32_t *half_edges, size_t count, leaf *leaves)
+{
+    size_t first = 0, end = count == 1 ? sp_cracks_on(&w->cracks, half_edges[0], &first) : 0;
+    if (count == 1 && first < end)
+        return visit_cracked(w, edge, half_edges[0], first, end);
+    return !is_asked(w, half_edges, count) || visit_leaves(w, edge, half_edges, count, leaves);
+}
+
+static bool visit_edges(walk *w, double crack, sp_error *error)
 {
     sp_half_edges edges = {0};
     sp_edge_walk edge = {0};
     leaf *leaves = malloc((3 * w->mesh->triangle_count + 1) * sizeof *leaves);
-    bool done = leaves && sp_half_edges_create(w->mesh, &edges, error);
+    bool done = leaves && sp_half_edges_create(w->mesh, &edges, error) &&
+                sp_cracks_find(w->mesh, &edges, crack, &w->cracks, error);
     for (size_t i = 0, of_edge; done && i < 3 * w->mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(w->mesh, &edges, i);
-        if (is_asked(w, &edges.order[i], of_edge))
-            done = visit_leaves(w, &edge, &edges.order[i], of_edge, leaves);
+        done = visit_edge(w, &edge, &edges.order[i], of_edge, leaves);
     }
     sp_edge_walk_free(&edge);
     sp_half_edges_destroy(&edges);
+    sp_cracks_free(&w->cracks);
     free(leaves);
     return done;
 }
 
-bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, const bool *asked, const sp_vec3 *normals,
-                            sp_border_visitor *visit, void *user, sp_error *error)
+bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, double crack, const bool *asked,
+                            const sp_vec3 *normals, sp_border_visitor *visit, void *user, sp_error *error)
 {
-    walk w = {atlas, mesh, asked, normals, visit, user};
+    walk w = {atlas, mesh, asked, normals, visit, user, {0}};
     sp_pieces pieces = {0};
     bool done = true;
     for (uint32_t t = 0; done && t < mesh->triangle_count; t++)
         done = visit_inside(&w, t, &pieces);
-    done = done && visit_edges(&w, error);
+    done = done && visit_edges(&w, crack, error);
     sp_pieces_free(&pieces);
     return done || sp_fail_memory(error);
 }

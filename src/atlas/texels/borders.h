@@ -16,12 +16,13 @@ typedef struct {
 
 typedef bool sp_border_visitor(void *user, const sp_border *border);
 
-/* Visits all borders, always in the same order. Where three triangles or more meet in an edge, either side of one goes
+/* Visits all borders, always in the same order. Across a crack of the mesh no wider than `crack` (m) texels share one
+ * as if it were joined (see mesh/cracks.h). Where three triangles or more meet in an edge, either side of one goes
  * on in the next about that edge. The outward vectors of a texel sum to 0 where it lies in one triangle, or in several
  * of one plane; edges of the mesh inside a texel are no borders. False, with the error set, where memory runs out or
  * the visitor returns false.
  * asked: [chart_count], of which charts; borders with others come too. normals: sp_triangle_normal of each triangle. */
-bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, const bool *asked, const sp_vec3 *normals,
-                            sp_border_visitor *visit, void *user, sp_error *error);
+bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, double crack, const bool *asked,
+                            const sp_vec3 *normals, sp_border_visitor *visit, void *user, sp_error *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
     sp_seam *items;
@@ -41,21 +42,35 @@ static uint32_t texel_at(const sp_atlas *atlas, uint32_t half_edge, double part)
     return sp_atlas_texel(atlas, half_edge / 3, u, v);
 }
 
-bool sp_edge_walk_begin(sp_edge_walk *walk, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b)
+bool sp_edge_walk_begin_on(sp_edge_walk *walk, const sp_atlas *atlas, uint32_t a, const double on_a[2], uint32_t b,
+                           const double on_b[2])
 {
     double p[2], q[2];
     walk->a = a;
     walk->b = b;
-    walk->opposite = sp_edge_is_opposite(mesh, a, b);
     walk->at_a = walk->at_b = 1;
     walk->to = 0;
     for (int side = 0; side < 2; side++) {
-        sp_edge_point(atlas, side ? b : a, side && walk->opposite ? 1 : 0, p);
-        sp_edge_point(atlas, side ? b : a, side && walk->opposite ? 0 : 1, q);
+        double *way = walk->way[side];
+        memcpy(way, side ? on_b : on_a, 2 * sizeof *way);
+        sp_edge_point(atlas, side ? b : a, way[0], p);
+        sp_edge_point(atlas, side ? b : a, way[1], q);
         if (!sp_crossings_of(&walk->crossings[side], p, q))
             return false;
     }
     return true;
+}
+
+bool sp_edge_walk_begin(sp_edge_walk *walk, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b)
+{
+    static const double ahead[2] = {0, 1}, back[2] = {1, 0};
+    return sp_edge_walk_begin_on(walk, atlas, a, ahead, b, sp_edge_is_opposite(mesh, a, b) ? back : ahead);
+}
+
+/* A part of a half-edge, at that part of the way along it. */
+static double part_at(const double way[2], double part)
+{
+    return way[0] + part * (way[1] - way[0]);
 }
 
 bool sp_edge_walk_next(sp_edge_walk *walk, const sp_atlas *atlas)
@@ -69,8 +84,8 @@ bool sp_edge_walk_next(sp_edge_walk *walk, const sp_atlas *atlas)
     walk->at_a += next_a <= next_b;
     walk->at_b += next_b <= next_a;
     double middle = 0.5 * (walk->from + walk->to);
-    walk->texel_a = texel_at(atlas, walk->a, middle);
-    walk->texel_b = texel_at(atlas, walk->b, walk->opposite ? 1 - middle : middle);
+    walk->texel_a = texel_at(atlas, walk->a, part_at(walk->way[0], middle));
+    walk->texel_b = texel_at(atlas, walk->b, part_at(walk->way[1], middle));
     return true;
 }
 

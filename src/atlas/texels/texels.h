@@ -72,17 +72,20 @@ bool sp_edge_is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint
 /* edges.c: true where half-edges of one edge run against each other. */
 bool sp_edge_is_opposite(const sp_mesh *mesh, uint32_t a, uint32_t b);
 
-/* seams.c: both sides of an edge, step by step: between `from` and `to`, parts of half-edge a, either side stays in one
- * texel. Starts as {0}. */
+/* seams.c: both sides of an edge, step by step: between `from` and `to`, parts of the way along it, either side stays
+ * in one texel. Starts as {0}. */
 typedef struct {
     double from, to;
     uint32_t texel_a, texel_b;
     uint32_t a, b;
-    bool opposite;
+    double way[2][2]; /* parts of half-edge a and of b, from where to where */
     size_t at_a, at_b;
     sp_crossings crossings[2];
 } sp_edge_walk;
 bool sp_edge_walk_begin(sp_edge_walk *walk, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b);
+/* The same along parts of two half-edges, of one edge or of two that lie side by side. */
+bool sp_edge_walk_begin_on(sp_edge_walk *walk, const sp_atlas *atlas, uint32_t a, const double on_a[2], uint32_t b,
+                           const double on_b[2]);
 bool sp_edge_walk_next(sp_edge_walk *walk, const sp_atlas *atlas);
 void sp_edge_walk_free(sp_edge_walk *walk);
 
