@@ -123,6 +123,9 @@ typedef struct {
 /* Those that do not drain, then the others, those of most area first. Owned by the evaluator. None where the criterion
  * does not ask for film. */
 SP_API const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
+/* Where film may be lost: the mesh's cracks, as sp_mesh_diagnose finds them, and how wide these may be (m). NULL where
+ * no film is asked for. Owned by the evaluator. */
+SP_API const sp_flaw *sp_evaluator_cracks(const sp_evaluator *evaluator, double *width);
 /* One thread's memory for what runs down the walls of an evaluator, borrowed, that sp_evaluator_resample made where the
  * criterion asks for film; or for what goods that move take with them, where it asks for a dose. */
 typedef struct sp_runoff sp_runoff;

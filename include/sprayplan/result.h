@@ -225,7 +225,7 @@ typedef struct {
     char text[360];
     bool doubtful; /* tells of what is not sound, or had to be mended */
 } sp_geometry_clause;
-#define SP_GEOMETRY_CLAUSES 11
+#define SP_GEOMETRY_CLAUSES 12
 /* Returns how many. */
 SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
 

@@ -61,6 +61,11 @@ static const sp_key account_keys[] = {
      .kind = SP_KEY_NUMBER,
      .says = "What of closed shells is wet on both sides: something is wrong with the geometry"},
     {.name = "outdoors_m2", .kind = SP_KEY_NUMBER, .says = "What is seen through openings alone and is not counted"},
+    {.name = "crack_corners",
+     .kind = SP_KEY_COUNT,
+     .range = SP_FROM(0),
+     .says = "Where film is asked for: corners on open edges that lie very near others, as film may be lost there"},
+    {.name = "crack_m", .kind = SP_KEY_NUMBERS, .says = "Where the first of these lies"},
     {.name = NULL}};
 static const sp_block account = {"account", "what was made of the geometry", NULL, account_keys};
 

@@ -70,6 +70,21 @@ static void add_sides(clause_list *list, const sp_geometry_account *account)
         add(list, true, "%.4g m\xc2\xb2 under the sky, seen through openings alone, are left out", account->outdoors);
 }
 
+/* Where film is asked for: it runs over them. */
+static void add_cracks(clause_list *list, const sp_evaluator *evaluator)
+{
+    double width;
+    const sp_flaw *cracks = sp_evaluator_cracks(evaluator, &width);
+    size_t count = cracks ? cracks->count : 0;
+    if (!count)
+        return;
+    sp_vec3 at = sp_setup_outside(sp_evaluator_setup(evaluator), cracks->place[0]);
+    add(list, true,
+        "%zu corner%s on open edges %s within %.2g mm of others and %s not joined to them, first at [%.4g m, %.4g m, "
+        "%.4g m]: film crosses cracks thinner than itself, but some may be lost there; `check --repair` mends them",
+        count, plural(count), count == 1 ? "lies" : "lie", 1e3 * width, count == 1 ? "is" : "are", at.x, at.y, at.z);
+}
+
 size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES])
 {
     clause_list list = {clauses, 0};
@@ -79,6 +94,7 @@ size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause cla
         add(&list, true, "%zu triangle%s without area %s left out", account.left_out, plural(account.left_out),
             account.left_out == 1 ? "is" : "are");
     add_shells(&list, &account);
+    add_cracks(&list, evaluator);
     add_sides(&list, &account);
     return list.count;
 }

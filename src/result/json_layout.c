@@ -58,6 +58,11 @@ static bool put_account(json_t *geometry, const sp_evaluator *evaluator)
                sp_put_real(object, "touching_m2", account.sides.touching) &&
                sp_put_real(object, "wet_on_both_sides_m2", account.sides.both) &&
                sp_put_real(object, "outdoors_m2", account.outdoors);
+    double width;
+    const sp_flaw *cracks = sp_evaluator_cracks(evaluator, &width);
+    if (done && cracks && cracks->count)
+        done = sp_put_count(object, "crack_corners", cracks->count) &&
+               sp_put_vector(object, "crack_m", sp_setup_outside(sp_evaluator_setup(evaluator), cracks->place[0]));
     return sp_put(geometry, "account", object) && done;
 }
 

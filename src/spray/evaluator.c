@@ -312,6 +312,13 @@ const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *cou
     return evaluator->rundown ? evaluator->rundown->hollows : NULL;
 }
 
+const sp_flaw *sp_evaluator_cracks(const sp_evaluator *evaluator, double *width)
+{
+    const sp_rundown *rundown = evaluator->rundown;
+    *width = rundown ? rundown->flaws.crack : 0;
+    return rundown ? &rundown->flaws.cracks : NULL;
+}
+
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch)
 {
     return sp_acceleration_at(evaluator, launch ? launch->trajectory : SP_TRAJECTORY_AUTO);

@@ -2,6 +2,7 @@
 
 #include "discs.h"
 #include "film/laminar.h"
+#include "mesh/diagnosis/flaw.h"
 #include "nozzle/pattern.h"
 #include "resolution.h"
 
@@ -124,6 +125,16 @@ static void list_hollows(sp_rundown *rundown)
     }
 }
 
+/* Where film may be lost. */
+static bool find_cracks(const sp_mesh *mesh, sp_mesh_diagnosis *flaws, sp_error *error)
+{
+    sp_half_edges edges = {0};
+    flaws->crack = SP_CRACK * sp_mesh_box(mesh, &flaws->minimum, &flaws->maximum);
+    bool done = sp_half_edges_create(mesh, &edges, error) && sp_diagnose_cracks(mesh, &edges, flaws, error);
+    sp_half_edges_destroy(&edges);
+    return done;
+}
+
 bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
 {
     if (!(evaluator->setup.criterion.film > 0))
@@ -150,7 +161,8 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
         return false;
     find_cells(evaluator, rundown);
     list_hollows(rundown);
-    return measure_girth(walls, &rundown->girth) || sp_fail_memory(error);
+    return (measure_girth(walls, &rundown->girth) || sp_fail_memory(error)) &&
+           (evaluator->everything || find_cracks(walls->setup.mesh, &rundown->flaws, error));
 }
 
 void sp_rundown_destroy(sp_evaluator *evaluator)

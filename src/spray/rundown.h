@@ -12,6 +12,7 @@ typedef struct sp_rundown {
     double girth;        /* m, around all walls, seen from above */
     size_t hollow_count;
     sp_hollow hollows[SP_HOLLOWS];
+    sp_mesh_diagnosis flaws; /* of the mesh, of which only the cracks are looked for */
 } sp_rundown;
 
 /* The evaluator's rundown, where its criterion asks for film. True where it does not. */

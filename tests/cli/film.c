@@ -30,6 +30,42 @@ static void film_runs_down_the_walls(void **state)
     json_decref(read);
 }
 
+static json_t *account_of(const json_t *result)
+{
+    return json_object_get(json_object_get(result, "geometry"), "account");
+}
+
+/* A lid that lies on the room and shares no edge with it: film crosses the crack, and that there is one is told. */
+static void cracks_are_told_of(void **state)
+{
+    (void)state;
+    char text[1000];
+    snprintf(text, sizeof text, "v 0 0 1.00001\nv 1 0 1.00001\nv 1 1 1.00001\nv 0 1 1.00001\n%s", room_obj);
+    char *faces = strstr(text, "f 1 2 3 4\n");
+    snprintf(faces, sizeof text - (size_t)(faces - text),
+             "f 5 6 7 8\ng ceiling\nf 1 4 3 2\ng walls\nf 5 9 10 6\nf 6 10 11 7\nf 7 11 12 8\nf 8 12 9 5\n");
+    write_file("lidded.obj", text);
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2, film: 2 L/min/m");
+    write_room_with("impact.yaml", "room.obj", "lidded.obj");
+    write_room_with("lidded.yaml", "room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncriterion: {flux: 1 L/min/m2}",
+                    "lidded.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncriterion: {flux: 20 L/min/m2, film: 2 L/min/m}");
+    json_t *sound = expect_json("simulate film.yaml --json", 0),
+           *cracked = expect_json("simulate lidded.yaml --json", 0);
+    assert_true(number(account_of(cracked), "crack_corners") == 8);
+    assert_true(json_array_size(json_object_get(account_of(cracked), "crack_m")) == 3);
+    assert_null(json_object_get(account_of(sound), "crack_corners"));
+    double wall = number(layout_named(sound, "manual"), "coverage");
+    assert_true(fabs(number(layout_named(cracked, "manual"), "coverage") - wall) < 0.01);
+    outcome run = run_program("simulate lidded.yaml");
+    assert_non_null(strstr(run.out, "geometry: 8 corners on open edges lie within 0.17 mm of others"));
+    forget(&run);
+    run = run_program("simulate impact.yaml"); /* which asks for no film */
+    assert_null(strstr(run.out, "corners"));
+    forget(&run);
+    json_decref(sound);
+    json_decref(cracked);
+}
+
 static void refused(const char *arguments, const char *complaint)
 {
     outcome result = run_program(arguments);
@@ -113,11 +149,9 @@ static void drag_is_placed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(film_runs_down_the_walls),
-        cmocka_unit_test(film_is_placed_for),
-        cmocka_unit_test(film_is_refused_where_it_cannot_be_counted),
-        cmocka_unit_test(drag_is_simulated),
-        cmocka_unit_test(drag_is_placed),
+        cmocka_unit_test(film_runs_down_the_walls), cmocka_unit_test(cracks_are_told_of),
+        cmocka_unit_test(film_is_placed_for),       cmocka_unit_test(film_is_refused_where_it_cannot_be_counted),
+        cmocka_unit_test(drag_is_simulated),        cmocka_unit_test(drag_is_placed),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
