@@ -16,10 +16,11 @@ typedef struct {
 typedef struct sp_film sp_film;
 
 /* Where the liquid of every cell runs: over its borders in proportion to t·b, b the outward normal of a border times
- * its length; from the end of a wall to what it meets within 2.5 texels, or drips on, from that of a gutter on along
- * it; to what lies beneath from ceilings flatter than 10° on the mean over a wave, and from what hangs lower than all
- * within it. Hollows and flats are filled to their rim and run over there (priority flood, Barnes et al. 2014). Nothing
- * is kept of the surface. NULL on error; the caller destroys. */
+ * its length, also across cracks of the mesh no wider than a film is thick; from the end of a wall to what it meets
+ * within 2.5 texels, or drips on, from that of a gutter on along it; to what lies beneath from ceilings flatter than
+ * 10° on the mean over a wave, and from what hangs lower than all within it. Hollows and flats are filled to their rim
+ * and run over there (priority flood, Barnes et al. 2014). Nothing is kept of the surface. NULL on error; the caller
+ * destroys. */
 sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error);
 void sp_film_destroy(sp_film *film);
 
