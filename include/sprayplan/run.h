@@ -11,7 +11,8 @@ typedef struct {
     int threads; /* 0: one per core. The answer does not depend on it. */
     /* Called now and then, from one thread at a time, with the stage's name and how much of it is done (0 to 1).
      * Returning false cancels: sp_place then returns its best so far, anything else fails with SP_ERROR_INTERRUPTED;
-     * also what sp_place asks of its evaluator, so that the evaluator's own had better go on. May be NULL. */
+     * also what sp_place asks of its evaluator, so that the evaluator's own had better go on. Evaluations that a caller
+     * begins within a parallel region of OpenMP ask nobody. May be NULL. */
     bool (*progress)(void *user, const char *stage, double done);
     void *user; /* handed to progress */
     /* s of wall time for sp_place; 0: none. Where an evaluator chooses settings for a layout, it tries no others once a

@@ -127,6 +127,8 @@ double cli_picture_share(double full, cli_left_out *left_out);
 /* main.c: the error on standard error; the exit status that it means. Where several ranks fail alike one of them tells
  * it. */
 int cli_fail(const sp_error *error);
+/* The exit status of a command that has done all; said on standard error where it was interrupted too late to stop. */
+int cli_done(void);
 
 /* One a command. */
 int cli_check(const cli_options *options);

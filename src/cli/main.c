@@ -31,6 +31,14 @@ int cli_fail(const sp_error *error)
     }
 }
 
+int cli_done(void)
+{
+    if (!cli_interrupted())
+        return EXIT_DONE;
+    fprintf(stderr, "sprayplan: interrupted when all was worked out already\n");
+    return EXIT_INTERRUPTED;
+}
+
 /* A file that is opened must not get the number of a standard stream and take what is printed; and what cannot be
  * written, to a reader who is gone or beyond a limit, is an error like others, which leaves the old files. */
 static void keep_streams(void)

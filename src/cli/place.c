@@ -376,7 +376,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_place(const cli_options *options)
 {
-    static const char *const stages[] = {"geometry",    "accelerator|wet sides|atlas",
+    static const char *const stages[] = {"geometry",    "accelerator|wet sides|atlas|settings",
                                          "simulate",    "visibility|footprints",
                                          "attainable",  "greedy|exchange|front",
                                          "refine",      "measured error|remedies|forward check",

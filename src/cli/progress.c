@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#define LONG 0.5 /* s without a word of the search: its evaluation is worth one */
+
 enum { CELLS = 20, LINE = 79 };
 
 /* How a line is taken back: by an escape code, by blanks where the terminal is to have none, or not at all. */
@@ -174,9 +176,12 @@ static bool search_progress(void *user, const char *stage, double done)
     return !interrupted;
 }
 
-/* Once a search has begun, its evaluations end whatever is asked: without them it has nothing to return. */
+/* Once a search has begun, its evaluations end whatever is asked: without them it has nothing to return. They are told
+ * of where they last, and not between any two lines of a terminal that keeps all. */
 static bool progress(void *user, const char *stage, double done)
 {
+    if (searching && (bar.kind == KEEPS || !(done > 0 && done < 1) || sp_now() - bar.drawn < LONG))
+        return true;
     return search_progress(user, stage, done) || searching;
 }
 

@@ -24,21 +24,16 @@ static void background_free(background *told)
     free(told->command_line);
 }
 
-/* Of one design; nothing and no error where that is interrupted. */
-static bool find_contributions_of(sp_design *design, sp_error *error)
+/* Of one design; what a search has found is worth its report without them, where it is interrupted. */
+static bool find_contributions_of(const cli_options *options, sp_design *design, sp_error *error)
 {
-    sp_error failure = {0};
-    if (cli_interrupted())
+    if (options->command == CLI_PLACE && cli_interrupted())
         return true;
-    design->contributions = sp_contributions_create(design->evaluator, design->layout, design->coverage, &failure);
-    if (design->contributions || failure.kind == SP_ERROR_INTERRUPTED)
-        return true;
-    *error = failure;
-    return false;
+    design->contributions = sp_contributions_create(design->evaluator, design->layout, design->coverage, error);
+    return design->contributions != NULL;
 }
 
-/* For what tells of them: a table on standard output does not, and it takes as long as evaluating the layouts. Left out
- * of what is interrupted. */
+/* For what tells of them: a table on standard output does not, and it takes as long as evaluating the layouts. */
 static bool find_contributions(const cli_options *options, background *told, sp_error *error)
 {
     bool asked = options->output || options->json, in_time = cli_time_left() >= LATE * told->pictures, whole = true;
@@ -46,7 +41,7 @@ static bool find_contributions(const cli_options *options, background *told, sp_
         sp_design *design = &told->designs[i];
         if (!design->evaluator)
             continue;
-        if (in_time && !find_contributions_of(design, error))
+        if (in_time && !find_contributions_of(options, design, error))
             return false;
         whole = whole && design->contributions;
     }

@@ -27,13 +27,17 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
     cli_progress_stage(options, "report");
     good = good && cli_report(options, &result, &scene, &opened->inputs, layout, error);
     sp_coverage_destroy(coverage);
-    return good ? EXIT_DONE : cli_fail_in(opened, error);
+    return good ? cli_done() : cli_fail_in(opened, error);
 }
 
 int cli_simulate(const cli_options *options)
 {
-    static const char *const stages[] = {
-        "geometry", "accelerator|wet sides|atlas", "simulate|jets", "measured error", "report", NULL};
+    static const char *const stages[] = {"geometry",
+                                         "accelerator|wet sides|atlas|settings",
+                                         "simulate|jets|patches|film|liquid",
+                                         "measured error|borderline|bound on lines",
+                                         "report",
+                                         NULL};
     cli_progress_plan(stages, 0, 0, 1);
     return cli_with_scene(options, true, simulate);
 }

@@ -3,6 +3,7 @@
 #define SPRAY_AIM_H
 
 #include "emitter.h"
+#include "watch.h"
 
 #define SP_BESIDE 1.5e-9 /* rad: whatever edge is 1e-9 off lies within it on one of four sides */
 
@@ -18,6 +19,7 @@ typedef struct {
     bool blocked;              /* what something blocks as well, and says so */
     unsigned beside;           /* 0, or 1 to 4: flights are traced so many SP_BESIDE off, each to another of four sides;
                                   what is said of them besides is as if they were not */
+    sp_watch *watch;           /* NULL, or: who asks whether to go on, of patches */
 } sp_aim;
 
 /* A cone of directions, half_angle in rad; what of a patch beyond its edge may still lie in it counts too. */

@@ -189,6 +189,7 @@ bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error
         tell_method(evaluator);
     if (evaluator->movers)
         return choose_unmeasured(evaluator, error);
+    evaluator->stage = "settings";
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
         done = sp_auto_forward(&trial, error);
     else if (!(open->texel > 0))
@@ -198,6 +199,7 @@ bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error
     bool inverse = evaluator->fidelity.method == SP_METHOD_INVERSE;
     if (done && inverse && open->trajectory == SP_TRAJECTORY_AUTO && evaluator->setup.gravity > 0)
         done = choose_trajectory(&trial, error);
+    evaluator->stage = NULL;
     sp_coverage_destroy(trial.coverage);
     return done;
 }

@@ -3,10 +3,12 @@
 #include "emitter.h"
 #include "launch.h"
 #include "movers.h"
+#include "watch.h"
 
 #include <stdlib.h>
 
 #define JETS 20000 /* of each nozzle, shared by its patterns; their number is part of the answer */
+#define BLOCK 4096 /* jets between two questions whether to go on */
 
 void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, double onward)
 {
@@ -44,20 +46,29 @@ typedef struct {
     sp_landing *landings; /* with drag alone */
 } jets_room;
 
-/* Where jets of one pattern, or drops, come to. */
-static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_vec3 acceleration, size_t jets,
-                const jets_room *room)
+/* Where jets of one pattern, or drops, come to. False where it was stopped. */
+static bool fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_vec3 acceleration, size_t jets,
+                const jets_room *room, sp_watch *watch)
 {
     const sp_setup *setup = &evaluator->setup;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
-    if (sp_flies_as_drops(evaluator, pattern))
-        sp_drops_land(evaluator, &drag, room->rays, acceleration, room->offset, jets,
-                      sp_thread_count(setup->run.threads), room->landings);
-    else
-        sp_jets_hit(evaluator, room->rays, acceleration, room->offset, jets, setup->run.threads, room->hits);
+    bool drops = sp_flies_as_drops(evaluator, pattern);
+    for (size_t first = 0, count; first < jets; first += count) {
+        const sp_ray *rays = room->rays + first;
+        const sp_vec3 *offset = room->offset + first;
+        count = jets - first < BLOCK ? jets - first : BLOCK;
+        if (drops)
+            sp_drops_land(evaluator, &drag, rays, acceleration, offset, count, sp_thread_count(setup->run.threads),
+                          room->landings + first);
+        else
+            sp_jets_hit(evaluator, rays, acceleration, offset, count, setup->run.threads, room->hits + first);
+        if (!sp_watch_goes_on(watch, count))
+            return false;
+    }
+    return true;
 }
 
-static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room,
+static bool end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room, sp_watch *watch,
                         sp_balance *balance)
 {
     bool drops = sp_flies_as_drops(evaluator, pattern);
@@ -65,19 +76,21 @@ static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern,
     double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
     size_t jets = (size_t)pattern->jets;
     if (!(emitter.source.speed > 0) || !(flow > 0))
-        return;
+        return true;
     for (size_t i = 0; i < jets; i++) {
         room->rays[i] = sp_emitter_jet(&emitter, i, jets);
         room->offset[i] = sp_jet_offset(evaluator, i);
     }
     sp_vec3 acceleration = emitter.source.gravity;
-    fly(evaluator, pattern, acceleration, jets, room);
+    if (!fly(evaluator, pattern, acceleration, jets, room, watch))
+        return false;
     for (size_t i = 0; i < jets; i++) {
         const sp_landing *landing = drops ? &room->landings[i] : NULL;
         const sp_hit *hit = landing ? &landing->hit : &room->hits[i];
         sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], acceleration, hit->t);
         end_jet(evaluator, hit, velocity, flow / (double)jets, balance);
     }
+    return true;
 }
 
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
@@ -93,8 +106,11 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
                       malloc(JETS * sizeof *room.hits), drag ? malloc(JETS * sizeof *room.landings) : NULL};
     done = done && ((room.rays && room.offset && room.hits && (room.landings || !drag)) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
+    sp_watch watch = sp_watch_start(evaluator, "liquid", JETS * layout->count);
     for (size_t n = 0; done && n < bodies.patterns->count; n++)
-        end_pattern(evaluator, &bodies.patterns->nozzles[n], &room, &balance);
+        done = end_pattern(evaluator, &bodies.patterns->nozzles[n], &room, &watch, &balance) ||
+               sp_watch_fail(&watch, error);
+    done = done && sp_watch_end(&watch, error);
     sp_bodies_free(&bodies);
     free(room.rays);
     free(room.offset);

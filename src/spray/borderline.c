@@ -104,12 +104,13 @@ static bool find_edges(const inquiry *own, const sp_aim *aim, sp_error *error)
     return true;
 }
 
-static bool inquire(const sp_emitter *emitter, double flow, bool *found, sp_error *error)
+static bool inquire(const sp_emitter *emitter, double flow, sp_watch *watch, bool *found, sp_error *error)
 {
     size_t room = emitter->source.evaluator->patches.count + 1;
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
     aim.blocked = true;
+    aim.watch = watch;
     sp_reach *reach = sp_reach_create(&emitter->source, &aim, error);
     inquiry own = {emitter, flow, reach, found, calloc(room, sizeof *own.fate), calloc(room, sizeof *own.concerned)};
     bool done = reach && ((own.fate && own.concerned) || sp_fail_memory(error));
@@ -140,12 +141,14 @@ bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, 
     sp_bodies bodies;
     bool done = sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error) &&
                 (found || sp_fail_memory(error));
+    sp_watch watch = sp_watch_start(evaluator, "borderline", done ? (1 + SIDES) * bodies.patterns->count * count : 0);
     for (size_t i = 0; done && i < bodies.patterns->count; i++) {
         const sp_nozzle *pattern = &bodies.patterns->nozzles[i];
         sp_emitter emitter = sp_bodies_emitter(evaluator, &bodies, i);
         double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
-        done = !(flow > 0) || inquire(&emitter, flow, found, error);
+        done = !(flow > 0) || inquire(&emitter, flow, &watch, found, error);
     }
+    done = done && sp_watch_end(&watch, error);
     sp_bodies_free(&bodies);
     double area = 0;
     for (size_t p = 0; done && p < count; p++) {

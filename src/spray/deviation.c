@@ -19,11 +19,13 @@
 #include "near.h"
 #include "nozzle/pattern.h"
 #include "shaft.h"
+#include "watch.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define SLACK 1e-9      /* relative, and rad: beyond all round-off */
+#define WATCHED 16      /* patches between two questions whether to go on */
 #define ROUND_OFF 1e-12 /* of the geometry's size, lengths */
 #define ROOF 2.0 /* times the height at which a line straight up meets something: what shall be sheltered by it */
 
@@ -402,10 +404,11 @@ static void bounding_free(bounding *b)
     free(b->sprayings);
 }
 
-/* Marks what is decided. False where memory ran out. */
-static bool decide(const bounding *b, bool *decided)
+/* Marks what is decided. */
+static bool decide(const bounding *b, bool *decided, sp_error *error)
 {
     bool done = true;
+    sp_watch watch = sp_watch_start(&b->straight, "bound on lines", b->straight.patches.count);
     int threads = omp_in_parallel() ? 1 : sp_thread_count(b->straight.setup.run.threads);
 #pragma omp parallel num_threads(threads) reduction(&& : done)
     {
@@ -413,16 +416,19 @@ static bool decide(const bounding *b, bool *decided)
                        .most = malloc((b->count + 1) * sizeof(double))};
         done = w.least && w.most;
 #pragma omp for schedule(dynamic, 256)
-        for (size_t i = 0; i < b->straight.patches.count; i++)
+        for (size_t i = 0; i < b->straight.patches.count; i++) {
+            if (i % WATCHED == 0 && !sp_watch_goes_on(&watch, WATCHED))
+                done = false;
             if (done)
                 decided[i] = is_decided(b, (uint32_t)i, &w);
+        }
         done = done && !w.failed;
         free(w.corners);
         free(w.faces);
         free(w.least);
         free(w.most);
     }
-    return done;
+    return done ? sp_watch_end(&watch, error) : (bool)sp_watch_fail(&watch, error);
 }
 
 /* What has a trajectory of its own does not change with the simulation's; how it lies between lines and parabolas is
@@ -448,7 +454,7 @@ bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, doub
     if (done)
         memset(marks, evaluator->setup.gravity == 0, patches->count);
     if (done && evaluator->setup.gravity > 0 && !evaluator->movers && !is_own(bodies.patterns)) {
-        done = bounding_create(&b, evaluator, &bodies, error) && (decide(&b, marks) || sp_fail_memory(error));
+        done = bounding_create(&b, evaluator, &bodies, error) && decide(&b, marks, error);
         bounding_free(&b);
     }
     sp_bodies_free(&bodies);

@@ -16,6 +16,11 @@ bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done
     return sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "interrupted");
 }
 
+bool sp_evaluator_stage(const sp_evaluator *evaluator, const char *stage, double done, sp_error *error)
+{
+    return sp_evaluator_progress(&evaluator->setup, evaluator->stage ? evaluator->stage : stage, done, error);
+}
+
 static bool in_range(double value, double low, double high)
 {
     return value >= low && value <= high;

@@ -217,7 +217,7 @@ static bool fly_pattern(jet_flight *flight, const sp_nozzle *pattern, double *do
         spray_jets(flight, pattern, first, count);
         fly(flight, count);
         *done += (double)count;
-        if (!sp_evaluator_progress(setup, "jets", *done / all, error))
+        if (!sp_evaluator_stage(flight->evaluator, "jets", *done / all, error))
             return false;
     }
     return true;

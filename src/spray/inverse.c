@@ -45,10 +45,12 @@ void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *a
     }
 }
 
-static bool lay_pattern(const sp_emitter *emitter, double flow, sp_tally *tally, sp_work *work, sp_error *error)
+static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch, sp_tally *tally, sp_work *work,
+                        sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
+    aim.watch = watch;
     sp_reach *reach = sp_reach_create(&emitter->source, &aim, error);
     if (!reach)
         return false;
@@ -62,18 +64,19 @@ static bool lay_pattern(const sp_emitter *emitter, double flow, sp_tally *tally,
 static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_tally *tally, sp_work *work,
                        sp_error *error)
 {
+    sp_watch watch = sp_watch_start(evaluator, "patches", bodies->patterns->count * evaluator->patches.count);
     for (size_t b = 0; b < bodies->layout->count; b++) {
         sp_tally_begin_nozzle(tally, bodies->layout, b);
         for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
             sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);
             double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
-            if (flow > 0 && !lay_pattern(&emitter, flow, tally, work, error))
+            if (flow > 0 && !lay_pattern(&emitter, flow, &watch, tally, work, error))
                 return false;
         }
         sp_tally_end_nozzle(tally);
     }
-    return true;
+    return sp_watch_end(&watch, error);
 }
 
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)

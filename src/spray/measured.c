@@ -1,5 +1,5 @@
 /* How far a coverage is off, measured at points. */
-#include "spray/state/state.h"
+#include "reference.h"
 
 #include <sprayplan/points.h>
 
@@ -42,7 +42,7 @@ static void add_block(const sp_coverage *coverage, const sp_point *points, const
 /* A surface, what was found of it, and what it is compared with. */
 typedef struct {
     const sp_points *surface;
-    const sp_reference *reference;
+    sp_reference *reference;
     const sp_coverage *coverage;
     uint64_t seed;
     double precision; /* of the accuracy or the difference */
@@ -65,12 +65,22 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
     return true;
 }
 
+/* By n points; what they take is told as a stage of its own each time, as nobody knows how many will do. */
+static bool compare_by(const sp_evaluator *evaluator, const measuring *m, size_t n, tally *tally, sp_error *error)
+{
+    sp_watch watch = sp_watch_start(evaluator, "measured error", n);
+    m->reference->watch = &watch;
+    bool done = compare(evaluator, m, n, tally, error) && sp_watch_end(&watch, error);
+    m->reference->watch = NULL;
+    return done;
+}
+
 static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measured_error *measured, sp_error *error)
 {
     double accuracy = evaluator->setup.fidelity.accuracy, mean = 0, spread = INFINITY;
     for (size_t n = FEWEST; n <= m->most && spread > m->precision * fmax(accuracy, mean); n *= 2) {
         tally tally = {0};
-        if (!compare(evaluator, m, n, &tally, error))
+        if (!compare_by(evaluator, m, n, &tally, error))
             return false;
         mean = fabs(tally.sum) / (double)n;
         spread = 2 * sqrt(tally.scatter + UNSEEN) / (double)n;

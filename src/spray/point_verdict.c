@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CHUNK 4096       /* points whose flights from a nozzle are traced together */
-#define CHUNK_PASSING 64 /* the same of goods that move, each traced for itself */
+#define CHUNK 4096    /* points whose flights from a nozzle are traced together */
+#define CHUNK_SLOW 64 /* the same with drag and of goods that move, where each is traced for itself */
 
 /* The flights of one pattern to a chunk of points, and what the points have received. */
 typedef struct {
@@ -94,7 +94,8 @@ static void spray_pass(const sp_emitter *emitter, double flow, const sp_point *p
     }
 }
 
-static void judge(const sp_reference *reference, const sp_point *points, size_t count, flights *f, bool *covered)
+/* False where it was stopped. */
+static bool judge(const sp_reference *reference, const sp_point *points, size_t count, flights *f, bool *covered)
 {
     const sp_evaluator *truth = &reference->truth;
     const sp_bodies *bodies = &reference->bodies;
@@ -106,16 +107,21 @@ static void judge(const sp_reference *reference, const sp_point *points, size_t 
         for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
             sp_emitter emitter = sp_bodies_emitter(truth, bodies, n);
             double flow = sp_nozzle_flow(&bodies->patterns->nozzles[n], &truth->setup.liquid);
+            if (reference->watch && !sp_watch_goes_on(reference->watch, 0))
+                return false;
             if (flow > 0)
                 (truth->movers ? spray_pass : spray)(&emitter, flow, points, count, f, covered);
         }
     }
+    return !reference->watch || sp_watch_goes_on(reference->watch, count);
 }
 
-bool sp_judge_sprayed(const sp_reference *reference, const sp_point *points, size_t count, bool *covered)
+bool sp_judge_sprayed(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
+                      sp_error *error)
 {
     bool done = true;
-    size_t chunk = reference->truth.movers ? CHUNK_PASSING : CHUNK, chunks = (count + chunk - 1) / chunk;
+    bool slow = reference->truth.movers || sp_bodies_hold_drops(&reference->truth, &reference->bodies);
+    size_t chunk = slow ? CHUNK_SLOW : CHUNK, chunks = (count + chunk - 1) / chunk;
     int threads = omp_in_parallel() ? 1 : sp_thread_count(reference->truth.setup.run.threads);
 #pragma omp parallel num_threads(threads) reduction(&& : done)
     {
@@ -124,10 +130,9 @@ bool sp_judge_sprayed(const sp_reference *reference, const sp_point *points, siz
 #pragma omp for schedule(dynamic, 1)
         for (size_t c = 0; c < chunks; c++) {
             size_t first = c * chunk, part = count - first < chunk ? count - first : chunk;
-            if (done)
-                judge(reference, points + first, part, &f, covered + first);
+            done = done && judge(reference, points + first, part, &f, covered + first);
         }
         flights_free(&f);
     }
-    return done;
+    return done || sp_watch_fail(reference->watch, error);
 }

@@ -15,6 +15,7 @@
 #define CHUNK_LEAST 512
 #define CHUNK_MOST 4096
 #define CHUNK_DRAG 256 /* with drag, where each is traced for itself */
+#define WATCHED_SLOW 4 /* patches in place of SP_WATCHED, with drag and of goods that move */
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, sp_ray_queue *queue)
 {
@@ -34,7 +35,7 @@ typedef struct harvest {
     size_t count;
     sp_arrival *arrivals;
     sp_work work;
-    bool failed; /* memory ran out */
+    bool failed; /* memory ran out, or it was stopped */
 } harvest;
 
 /* What is in the way of the queue's rays, of what stands. */
@@ -50,7 +51,21 @@ static void trace(const sp_source *source, sp_ray_queue *queue)
                            source->gravity, 1, queue->blocked);
 }
 
-/* The arrivals at patches first to end; false where memory ran out. */
+/* The flights to patches first to end, as far as they may go on. */
+static bool gather_all(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, sp_ray_queue *queue)
+{
+    uint32_t step = source->fronts || source->evaluator->movers ? WATCHED_SLOW : SP_WATCHED;
+    for (uint32_t next = first; first < end; first = next) {
+        next = end - first < step ? end : first + step;
+        for (uint32_t patch = first; patch < next; patch++)
+            gather(source, aim, patch, queue);
+        if (aim->watch && !sp_watch_goes_on(aim->watch, next - first))
+            return false;
+    }
+    return !queue->failed;
+}
+
+/* The arrivals at patches first to end; false where memory ran out, or it was stopped. */
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, sp_ray_queue *queue,
                  harvest *harvest)
 {
@@ -59,9 +74,7 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         queue->shaded = malloc(source->evaluator->positions * sizeof *queue->shaded);
     if (!queue->shaded || !sp_ray_queue_make_room(queue, 2 * (size_t)(end - first)))
         return false;
-    for (uint32_t patch = first; patch < end; patch++)
-        gather(source, aim, patch, queue);
-    if (queue->failed)
+    if (!gather_all(source, aim, first, end, queue))
         return false;
     trace(source, queue);
     size_t kept = 0;
@@ -162,7 +175,7 @@ sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *
     if (done)
         return reach;
     sp_reach_destroy(reach);
-    return sp_fail_memory(error);
+    return sp_watch_fail(aim->watch, error);
 }
 
 /* Where it is known how what leaves flies; else false, with an error. */

@@ -62,8 +62,8 @@ static bool is_rinsed(const sp_reference *reference, const sp_point *point)
 bool sp_reference_judge(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
                         sp_error *error)
 {
-    if (!sp_judge_sprayed(reference, points, count, covered))
-        return sp_fail_memory(error);
+    if (!sp_judge_sprayed(reference, points, count, covered, error))
+        return false;
     for (size_t i = 0; reference->walls && i < count; i++)
         covered[i] = covered[i] || is_rinsed(reference, &points[i]);
     return true;

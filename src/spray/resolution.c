@@ -100,9 +100,10 @@ static bool set_positions(sp_evaluator *evaluator, double texel, sp_error *error
 /* What is left to do once there is an atlas. */
 static bool cut_patches(sp_evaluator *evaluator, sp_error *error)
 {
-    return evaluator->atlas &&
+    return evaluator->atlas && sp_evaluator_stage(evaluator, "atlas", 0.5, error) &&
            sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
-           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || sp_fail_nothing(error));
+           sp_evaluator_stage(evaluator, "atlas", 0.7, error) && sp_patches_create(evaluator, error) &&
+           (evaluator->patches.total_area > 0 || sp_fail_nothing(error));
 }
 
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */

@@ -149,6 +149,8 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
     if (!rundown->walls)
         return false;
     const sp_evaluator *walls = rundown->walls;
+    if (!sp_evaluator_stage(evaluator, "film", 0, error))
+        return false;
     rundown->film = sp_film_create(&(sp_film_surface){.mesh = walls->setup.mesh,
                                                       .atlas = walls->atlas,
                                                       .tracer = walls->tracer,
@@ -220,6 +222,7 @@ static bool find_arriving(const sp_rundown *rundown, const sp_layout *layout, do
 {
     sp_evaluator walls = *rundown->walls; /* as the liquid hits them, before it runs down */
     walls.rundown = NULL;
+    walls.stage = walls.stage ? walls.stage : "film";
     sp_layout *streams = part_of_layout(layout, true, error);
     sp_layout *sprays = streams ? part_of_layout(layout, false, error) : NULL;
     bool done = sprays && add_hits(&walls, sprays, arriving, error) &&

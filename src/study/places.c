@@ -85,7 +85,7 @@ static bool search(sp_studying *studying, const sp_evaluator *evaluator, const s
                    sp_study_place *found, sp_error *error)
 {
     sp_place_options options = *place;
-    options.run = sp_evaluator_setup(evaluator)->run;
+    options.run = sp_study_place_run(studying);
     options.run.time_limit = found->limited ? found->limit : 0;
     options.prove = false;
     if (!found->refine)

@@ -45,6 +45,8 @@ typedef struct {
 /* study.c */
 /* The setup with another fidelity, and with progress that ends up with the study's user. */
 sp_setup sp_study_setup(sp_studying *studying, const sp_fidelity *fidelity);
+/* How a placement is run on its evaluator. */
+sp_run sp_study_place_run(sp_studying *studying);
 /* Part `index` of `count` of a stage begins; false, with an error, where the study is to end. */
 bool sp_study_next(sp_studying *studying, const char *stage, size_t index, size_t count, double expected,
                    sp_error *error);

@@ -42,12 +42,25 @@ static bool progress(void *user, const char *stage, double done)
     return !ends_placement(studying, stage) && !studying->cancelled;
 }
 
+/* What ends a placement early, or the study, lets its evaluations end: without them there would be no layout. */
+static bool evaluation_progress(void *user, const char *stage, double done)
+{
+    const sp_studying *studying = user;
+    return progress(user, stage, done) || studying->placing;
+}
+
 sp_setup sp_study_setup(sp_studying *studying, const sp_fidelity *fidelity)
 {
     sp_setup setup = *studying->setup;
     setup.fidelity = *fidelity;
-    setup.run = (sp_run){.threads = studying->options->run.threads, .progress = progress, .user = studying};
+    setup.run = sp_study_place_run(studying);
+    setup.run.progress = evaluation_progress;
     return setup;
+}
+
+sp_run sp_study_place_run(sp_studying *studying)
+{
+    return (sp_run){.threads = studying->options->run.threads, .progress = progress, .user = studying};
 }
 
 double sp_study_left(const sp_studying *studying)

@@ -1,4 +1,4 @@
-/* place on a small room, out of time, interrupted, and asked to end. */
+/* place on a small room, out of time, interrupted, and asked to end; and simulate, which has nothing to write then. */
 #include "results.h"
 
 #include <signal.h>
@@ -18,17 +18,40 @@ static bool catches(pid_t process, int signal)
     return caught >> (signal - 1) & 1;
 }
 
-static pid_t begin_long_place(const char *scene, const char *folder)
+/* Begins what takes far longer than the test lets it run. */
+static pid_t begin(const char *command, const char *scene, const char *folder)
 {
     pid_t child = fork();
     if (child == 0) {
         if (chdir(workplace) != 0 || !freopen(".out", "w", stdout) || !freopen(".err", "w", stderr))
             _exit(127);
-        /* Thousands of mounting points on fine texels: far longer than the test lets it run. */
-        execl(BINARY_DIR "/sprayplan", "sprayplan", "place", scene, "-o", folder, (char *)NULL);
+        execl(BINARY_DIR "/sprayplan", "sprayplan", command, scene, "-o", folder, (char *)NULL);
         _exit(127);
     }
+    assert_true(child > 0);
     return child;
+}
+
+/* Interrupts what has worked for so many seconds of processor, which must not have ended by itself; it ends as it
+ * should. */
+static void interrupt_after(pid_t child, int seconds, int signal)
+{
+    struct timespec pause = {0, 10000000}, worked = {0};
+    clockid_t clock;
+    int status;
+    assert_int_equal(clock_getcpuclockid(child, &clock), 0);
+    while (!catches(child, signal) || worked.tv_sec < seconds) {
+        assert_int_equal(waitpid(child, &status, WNOHANG), 0);
+        nanosleep(&pause, NULL);
+        assert_int_equal(clock_gettime(clock, &worked), 0);
+    }
+    assert_int_equal(kill(child, signal), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 130);
+    char *complaint = read_file(".err", NULL);
+    assert_non_null(strstr(complaint, "interrupted"));
+    free(complaint);
 }
 
 /* check accepts what was written in `folder`, and simulate gives its figures; of a proposal without nozzles, where that
@@ -131,25 +154,8 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
 
 static void place_survives(int signal, const char *scene, const char *folder)
 {
-    pid_t child = begin_long_place(scene, folder);
-    assert_true(child > 0);
-    struct timespec pause = {0, 10000000}, worked = {0};
-    clockid_t clock;
-    int status;
-    assert_int_equal(clock_getcpuclockid(child, &clock), 0);
-    /* The evaluator of twelve triangles takes a few milliseconds of two seconds. */
-    while (!catches(child, signal) || worked.tv_sec < 2) {
-        assert_int_equal(waitpid(child, &status, WNOHANG), 0); /* it must not have ended by itself */
-        nanosleep(&pause, NULL);
-        assert_int_equal(clock_gettime(clock, &worked), 0);
-    }
-    assert_int_equal(kill(child, signal), 0);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_true(WIFEXITED(status));
-    assert_int_equal(WEXITSTATUS(status), 130);
-    char *complaint = read_file(".err", NULL);
-    assert_non_null(strstr(complaint, "interrupted"));
-    free(complaint);
+    /* thousands of mounting points; the evaluator of twelve triangles takes a few milliseconds of two seconds */
+    interrupt_after(begin("place", scene, folder), 2, signal);
     is_named_as_cut(folder, "certificate");
     is_named_as_cut(folder, "what each nozzle brings");
     proposal_is_whole(folder, true); /* the signal may come before the first nozzle is found */
@@ -178,6 +184,30 @@ static void so_does_interrupting_a_search_by_jets(void **state)
     place_survives(SIGINT, "jets.yaml", "interrupted-jets");
 }
 
+/* Minutes of drops on texels that are cut out in less than a second, then the evaluation ends within a part of one. */
+static void an_evaluation_is_left_at_once(void **state)
+{
+    (void)state;
+    char scene[16384];
+    size_t used = (size_t)snprintf(scene, sizeof scene,
+                                   "geometry: [{file: room.obj}]\n"
+                                   "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+                                   "catalogue: catalogue.yaml\n"
+                                   "simulate: {texel: 8 mm, trajectory: drag}\n"
+                                   "nozzles:\n");
+    for (int i = 0; i < 100; i++)
+        used += (size_t)snprintf(scene + used, sizeof scene - used,
+                                 "  - {name: N%d, type: ball, position: [0.5, 0.5, %g], axis: [0, 0, -1], pressure: "
+                                 "2 bar}\n",
+                                 i, 0.2 + 0.005 * i);
+    write_file("drops.yaml", scene);
+    interrupt_after(begin("simulate", "drops.yaml", "left"), 3, SIGINT);
+    char *said = read_file(".out", NULL);
+    assert_string_equal(said, "");
+    free(said);
+    assert_null(read_file("left/result.json", NULL));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +215,7 @@ int main(void)
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),
         cmocka_unit_test(so_does_asking_it_to_end),
         cmocka_unit_test(so_does_interrupting_a_search_by_jets),
+        cmocka_unit_test(an_evaluation_is_left_at_once),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

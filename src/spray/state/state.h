@@ -26,6 +26,7 @@ struct sp_evaluator {
     struct sp_rundown *rundown; /* rundown.h; NULL where the criterion does not ask for film */
     struct sp_movers *movers;   /* movers.h; NULL where nothing moves; the origin owns it */
     double began;               /* s, of a monotonic clock: when it was asked for */
+    const char *stage;          /* of which all that it does is a part, for the progress; NULL: each has its own */
     size_t positions;           /* in which goods are looked at on their pass; 1 where nothing moves */
 };
 
@@ -44,6 +45,8 @@ sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own);
 bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+/* The same of what an evaluator does, unless that is a part of another stage. */
+bool sp_evaluator_stage(const sp_evaluator *evaluator, const char *stage, double done, sp_error *error);
 /* False, with the error that nothing is to be cleaned. */
 bool sp_fail_nothing(sp_error *error);
 
