@@ -23,8 +23,10 @@ typedef struct sp_evaluator sp_evaluator;
 SP_API sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 /* The same for a layout (borrowed for the call; NULL or without nozzles: as above), with the cheapest settings that
  * keep the setup's accuracy as measured on it (see sp_measure_error), so that they hold for it and layouts like it:
- *  - the texel, inverse: the longest, between that of 30,000 texels and of 1,600,000, on which no more area is
- *    misjudged than the accuracy and the error estimated is at most half of it
+ *  - the texel, inverse: the longest of those tried on which the error estimated is at most half the accuracy, between
+ *    that of 30,000 texels, which is tried first, and that of 1,600,000. Where the first misjudges more area than the
+ *    accuracy, the next is shorter in that proportion: as what is misjudged shrinks about as the texel does, it then
+ *    comes to about the accuracy, and may come to a little more. Each further one is 0.7 of the one before
  *  - the trajectory, inverse: lines where against parabolas no more is misjudged than the accuracy, the error is at
  * most half of it and a tenth of the work, as counted, is saved
  *  - forward: shorter texels where the first impact of few jets on long texels is found to cover too much, more jets

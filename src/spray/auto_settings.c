@@ -55,8 +55,8 @@ static void tell_texel(const sp_setting_trial *trial, const char *what)
              what, 100 * trial->measured.estimate, 100 * trial->measured.misjudged);
 }
 
-/* The area misjudged tells the texel, since it shrinks at least as the texel does. The error, which is only its balance
- * between too much and too little, is then measured. */
+/* The area misjudged tells the texel, since it shrinks about as the texel does. The error, which is only its balance
+ * between too much and too little, is then measured, and alone decides. */
 static bool choose_texel(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
@@ -77,8 +77,8 @@ static bool choose_texel(sp_setting_trial *trial, sp_error *error)
     }
     evaluator->choice.missed = !sp_setting_trial_keeps(trial);
     tell_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
-                      : texel > finest                           ? "the coarsest that keeps the accuracy"
-                                                                 : "the finest that auto takes");
+                      : texel > finest ? "the coarsest tried that errs by at most half the accuracy"
+                                       : "the finest that auto takes");
     return true;
 }
 
