@@ -28,6 +28,7 @@ typedef struct {
     sheet *sheets;   /* [sheet_count] */
     uint32_t *sheet; /* [triangle_count], of each triangle of the mesh */
     sp_atlas *atlas;
+    bool crowded; /* it failed since charts come too close to each other: on shorter texels they may not */
     sp_error *error;
 } reuse;
 
@@ -232,7 +233,7 @@ static bool is_foreign(const uint32_t *row, size_t x, size_t end, uint32_t chart
 }
 
 /* Paints one page, each pixel with its chart's number from 1, and looks for others in it and around it. */
-static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_raster *raster)
+static bool check_page(reuse *r, uint32_t page, uint32_t *paint, sp_raster *raster)
 {
     const sp_atlas *atlas = r->atlas;
     size_t edge = atlas->page_edge;
@@ -246,7 +247,7 @@ static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_raster
             size_t from = raster->x ? raster->x - 1 : 0, end = raster->x + (size_t)raster->count + 1;
             end = end < edge ? end : edge;
             for (size_t y = raster->y ? raster->y - 1 : 0; y < raster->y + 2 && y < edge; y++)
-                if (is_foreign(paint + y * edge, from, end, chart))
+                if ((r->crowded = is_foreign(paint + y * edge, from, end, chart)))
                     return refuse(r, t, "a chart that lies on another or without a pixel between");
             for (size_t x = raster->x; x < (size_t)raster->x + raster->count; x++)
                 paint[raster->y * edge + x] = chart;
@@ -255,7 +256,7 @@ static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_raster
     return true;
 }
 
-static bool check_gaps(const reuse *r)
+static bool check_gaps(reuse *r)
 {
     size_t edge = r->atlas->page_edge;
     uint32_t *paint = malloc(edge * edge * sizeof *paint);
@@ -329,8 +330,9 @@ static bool build(reuse *r, const sp_unfolding *const *files, double texel)
            sp_atlas_cut(r->atlas, r->mesh, r->error);
 }
 
-sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
-                            sp_error *error)
+/* On such texels, or shorter ones by less than it takes for whole ones to go into a page. */
+static sp_atlas *lay(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel, bool *crowded,
+                     sp_error *error)
 {
     reuse r = {.mesh = mesh, .sheet_count = count, .error = error};
     r.atlas = calloc(1, sizeof *r.atlas);
@@ -340,10 +342,29 @@ sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *file
     done = done && build(&r, files, texel);
     free(r.sheets);
     free(r.sheet);
+    *crowded = r.crowded;
     if (done)
         return r.atlas;
     sp_atlas_destroy(r.atlas);
     return NULL;
+}
+
+sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
+                            sp_error *error)
+{
+    double own = sp_unfolding_texel(files, count, mesh);
+    for (;;) {
+        sp_error failure = {0};
+        bool crowded;
+        sp_atlas *atlas = lay(mesh, files, count, texel, &crowded, &failure);
+        if (!atlas && crowded && texel > own) {
+            texel = fmax(0.5 * texel, own);
+            continue;
+        }
+        if (!atlas && error && error->kind == SP_OK)
+            *error = failure;
+        return atlas;
+    }
 }
 
 sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error)

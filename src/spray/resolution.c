@@ -3,6 +3,7 @@
 #include "texel_sizes.h"
 #include "movers.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Jets per nozzle and texel of all that is to be cleaned: with a flux criterion what a texel at the threshold then
@@ -171,6 +172,14 @@ static bool is_laid(const sp_evaluator *evaluator)
     return evaluator->setup.unfolded && evaluator->fidelity.texel == evaluator->setup.unfolded_texel;
 }
 
+/* On such texels as were asked for the files' pages are too short, or their charts too close. */
+static void tell_shorter(sp_evaluator *evaluator, double asked)
+{
+    evaluator->fidelity.texel = evaluator->setup.unfolded_texel = evaluator->atlas->texel;
+    snprintf(evaluator->choice.texel, SP_WHY, "not the %.4g mm asked for: the files' pages carry no longer ones",
+             1e3 * asked);
+}
+
 static bool lay(sp_evaluator *evaluator, sp_error *error)
 {
     const sp_setup *setup = &evaluator->setup;
@@ -181,6 +190,8 @@ static bool lay(sp_evaluator *evaluator, sp_error *error)
         !set_positions(evaluator, texel, error) ||
         !(evaluator->atlas = sp_atlas_of_files(setup->mesh, setup->unfolded, setup->unfolded_count, texel, error)))
         return false;
+    if (evaluator->atlas->texel < 0.75 * texel)
+        tell_shorter(evaluator, texel);
     for (size_t c = 0; c < evaluator->atlas->chart_count; c++)
         finest = fmin(finest, evaluator->atlas->chart_texel[c]);
     if (fidelity->jets == 0)

@@ -42,6 +42,23 @@ static void coverage_is_that_of_an_own_atlas(void **state)
     json_decref(own);
 }
 
+/* Charts that lie on one another on texels so long lie apart on shorter ones. */
+static void a_texel_too_long_for_the_pages_is_gone_below(void **state)
+{
+    (void)state;
+    write_flat_room("flat.yaml", "  - file: flat.obj\n");
+    json_t *kept = expect_json("simulate flat.yaml --set simulate.texel=20mm --set simulate.atlas=reuse --json", 0);
+    json_t *below = expect_json("simulate flat.yaml --set simulate.texel=90mm --set simulate.atlas=reuse --json", 0);
+    json_t *fidelity = json_object_get(below, "fidelity");
+    assert_true(number(fidelity, "texel_m") <= 0.045 && number(fidelity, "texel_m") >= 0.02 - 1e-12);
+    assert_non_null(strstr(json_string_value(json_object_get(json_object_get(fidelity, "auto"), "texel")),
+                           "not the 90 mm asked for"));
+    assert_true(fabs(number(json_object_get(below, "geometry"), "clean_area_m2") - 6) < 1e-9);
+    assert_null(json_object_get(json_object_get(json_object_get(kept, "fidelity"), "auto"), "texel"));
+    json_decref(below);
+    json_decref(kept);
+}
+
 /* The charts are the file's own: its pages are the pictures' pages, and 1 and 2 threads give the same bytes. */
 static void pages_are_those_of_the_file(void **state)
 {
@@ -150,9 +167,13 @@ static void what_is_unsound_is_told_where(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coverage_is_that_of_an_own_atlas),  cmocka_unit_test(pages_are_those_of_the_file),
-        cmocka_unit_test(files_have_pages_of_their_own),     cmocka_unit_test(place_reuses_too),
-        cmocka_unit_test(other_texels_pack_the_charts_anew), cmocka_unit_test(what_is_unsound_is_told_where),
+        cmocka_unit_test(coverage_is_that_of_an_own_atlas),
+        cmocka_unit_test(a_texel_too_long_for_the_pages_is_gone_below),
+        cmocka_unit_test(pages_are_those_of_the_file),
+        cmocka_unit_test(files_have_pages_of_their_own),
+        cmocka_unit_test(place_reuses_too),
+        cmocka_unit_test(other_texels_pack_the_charts_anew),
+        cmocka_unit_test(what_is_unsound_is_told_where),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
