@@ -209,9 +209,12 @@ typedef struct {
     char cut[SP_STAGES_CUT][SP_STAGE_NAME];
 } sp_proposal;
 
+#define SP_MOUNTING_POINTS                                                                                             \
+    100000 /* that all mounts may give together: beyond that a spacing is taken for a mistake                          \
+            */
 /* How many mounting points each of the options' mounts gives, into [mount_count] of the caller's: `all`, and the
- * `usable` ones, which are inside the cavity and clear of walls. False, with an error, for mounts of too many points
- * and where memory runs out. */
+ * `usable` ones, which are inside the cavity and clear of walls. False, with an error, that names the mount of most
+ * points where all give more than SP_MOUNTING_POINTS together, and where memory runs out. */
 SP_API bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_options *options, size_t *all,
                                   size_t *usable, sp_error *error);
 

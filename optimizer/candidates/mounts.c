@@ -7,7 +7,6 @@
 
 #include <stdlib.h>
 
-#define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
 #define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
 #define NM 1e9              /* to a metre */
 
@@ -19,20 +18,49 @@ static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
     return true;
 }
 
-/* Points from one end of a length to the other, both included, no further apart than the spacing. */
-static bool steps(double length, double spacing, size_t *count, sp_error *error)
+/* How many points a mount gives; of a surface about as many, for each side that is wet. Infinite where a spacing is
+ * needed and there is none. */
+static double points_of(const sp_mesh *mesh, const sp_mount *mount)
 {
-    *count = 1;
-    if (!(length > 0))
+    sp_vec3 extent = sp_sub(mount->to, mount->from);
+    double area = 0;
+    switch (mount->kind) {
+    case SP_MOUNT_PORT:
+        return sp_mount_points_along(mount->depth_to - mount->depth_from, mount->depth_spacing);
+    case SP_MOUNT_LINE:
+        return sp_mount_points_along(sp_length(extent), mount->spacing);
+    case SP_MOUNT_BOX:
+        return sp_mount_points_along(extent.x, mount->spacing) * sp_mount_points_along(extent.y, mount->spacing) *
+               sp_mount_points_along(extent.z, mount->spacing);
+    case SP_MOUNT_SURFACE:
+        for (uint32_t t = 0; t < mesh->triangle_count; t++)
+            area += sp_mount_has(mesh, mount, t) ? sp_triangle_area(mesh, t) : 0;
+        return area > 0 ? fmax(1, area / (fmax(mount->spacing, 0) * mount->spacing)) : 0;
+    }
+    return 0;
+}
+
+/* That all mounts together give no more points than they may; the error names the one that gives most. */
+static bool check_points(const sp_mesh *mesh, const sp_place_options *options, sp_error *error)
+{
+    static const char *const kinds[] = {"port", "surface", "line", "box"};
+    double all = 0, most = 0;
+    size_t worst = 0;
+    for (size_t m = 0; m < options->mount_count; m++) {
+        double points = points_of(mesh, &options->mounts[m]);
+        all += points;
+        worst = points > most ? m : worst;
+        most = fmax(most, points);
+    }
+    if (all <= SP_MOUNTING_POINTS)
         return true;
-    if (!(spacing > 0))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "mount: a spacing of %g m, expected more than 0", spacing);
-    double intervals = ceil(length / spacing * (1 - 1e-9));
-    if (intervals >= SITES_MOST)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "mount: a spacing of %g m over %g m, more than %d mounting points", spacing, length, SITES_MOST);
-    *count = 1 + (size_t)fmax(1, intervals);
-    return true;
+    const sp_mount *mount = &options->mounts[worst];
+    const char *quote = mount->name[0] ? "'" : "", *between = mount->name[0] ? " " : "";
+    return sp_fail(
+        error, SP_ERROR_INPUT, NULL, 0, 0,
+        "mounts: %s%s%s%s%s (number %zu): found %.0f mounting points, %.0f with those of all mounts, expected "
+        "at most %d in all: a longer spacing gives fewer",
+        kinds[mount->kind], between, quote, mount->name, quote, worst + 1, most, all, SP_MOUNTING_POINTS);
 }
 
 static double step_at(double from, double to, size_t i, size_t count)
@@ -54,9 +82,7 @@ static bool port_sites(const sp_evaluator *evaluator, const sp_mount *mount, uin
                        sp_error *error)
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
-    size_t count;
-    if (!steps(mount->depth_to - mount->depth_from, mount->depth_spacing, &count, error))
-        return false;
+    size_t count = (size_t)sp_mount_points_along(mount->depth_to - mount->depth_from, mount->depth_spacing);
     uint32_t nearest = sp_tracer_nearest_triangle(sp_evaluator_tracer(evaluator), SP_NONE, mount->position);
     double last = -1;
     for (size_t i = 0; i < count; i++) {
@@ -76,15 +102,9 @@ static bool port_sites(const sp_evaluator *evaluator, const sp_mount *mount, uin
 
 static bool box_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
 {
-    size_t nx, ny, nz;
-    if (!steps(mount->to.x - mount->from.x, mount->spacing, &nx, error) ||
-        !steps(mount->to.y - mount->from.y, mount->spacing, &ny, error) ||
-        !steps(mount->to.z - mount->from.z, mount->spacing, &nz, error))
-        return false;
-    if ((double)nx * (double)ny * (double)nz > SITES_MOST)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "mount: a spacing of %g m gives a box of %zu x %zu x %zu mounting points, more than %d",
-                       mount->spacing, nx, ny, nz, SITES_MOST);
+    size_t nx = (size_t)sp_mount_points_along(mount->to.x - mount->from.x, mount->spacing),
+           ny = (size_t)sp_mount_points_along(mount->to.y - mount->from.y, mount->spacing),
+           nz = (size_t)sp_mount_points_along(mount->to.z - mount->from.z, mount->spacing);
     for (size_t k = 0; k < nz; k++)
         for (size_t j = 0; j < ny; j++)
             for (size_t i = 0; i < nx; i++) {
@@ -102,10 +122,8 @@ static bool box_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, sp
 
 static bool line_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
 {
-    size_t count;
     sp_vec3 along = sp_sub(mount->to, mount->from);
-    if (!steps(sp_length(along), mount->spacing, &count, error))
-        return false;
+    size_t count = (size_t)sp_mount_points_along(sp_length(along), mount->spacing);
     for (size_t i = 0; i < count; i++) {
         sp_site site = {.position = sp_along(mount->from, step_at(0, 1, i, count), along),
                         .axis = mount->axis,
@@ -152,10 +170,6 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
         return true;
     /* a part smaller than a square of the spacing has its choice of points all the same */
     double per_area = SAMPLES_PER_SITE / fmin(mount->spacing * mount->spacing, total);
-    if (!(mount->spacing > 0) || total * per_area > (double)SITES_MOST * SAMPLES_PER_SITE)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "mount: a spacing of %g m on %g m² of surface, more than %d mounting points", mount->spacing,
-                       total, SITES_MOST);
     double passed = 0.5; /* the first sample lies half a sample's area in */
     size_t number = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
@@ -274,6 +288,8 @@ static bool mount_sites(const sp_evaluator *evaluator, const sp_mount *mount, ui
 static bool list_sites(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
 {
     *sites = (sp_sites){0};
+    if (!check_points(sp_evaluator_setup(evaluator)->mesh, options, error))
+        return false;
     for (size_t m = 0; m < options->mount_count; m++)
         if (!mount_sites(evaluator, &options->mounts[m], (uint32_t)m, sites, error)) {
             sp_sites_free(sites);

@@ -12,6 +12,13 @@ double sp_mount_tolerance(const sp_setup *setup)
     return TOLERANCE * sp_mesh_box(setup->mesh, &low, &high);
 }
 
+double sp_mount_points_along(double length, double spacing)
+{
+    if (!(length > 0))
+        return 1;
+    return spacing > 0 ? 1 + fmax(1, ceil(length / spacing * (1 - 1e-9))) : INFINITY;
+}
+
 /* A body that is as wide as the bore, to the last digits, passes it. */
 static bool passes(const sp_mount *mount, const sp_nozzle_type *type)
 {

@@ -1,29 +1,28 @@
 /* place: what may be proposed, and where. */
+#include "mounts/mount_geometry.h"
 #include "scene/state.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Mounting points of one line or box: a slip in `spacing` must not ask for more memory than there is. */
-static const double max_points = 1e6;
-
+/* That a mount alone does not give more points than all together may. */
 static bool check_spacing(const sp_reader *reader, const sp_yaml *node, double spacing, sp_vec3 extent)
 {
     double points = 1, sizes[3] = {extent.x, extent.y, extent.z};
     bool flat = true;
     for (int i = 0; i < 3; i++) {
         flat = flat && sizes[i] == 0;
-        points *= spacing > 0 ? floor(fabs(sizes[i]) / spacing) + 1 : 1;
+        points *= sp_mount_points_along(sizes[i], spacing);
     }
     if (flat)
         return true;
     if (!sp_yaml_get(node, "spacing"))
         return sp_read_message(reader, node, "spacing",
                                "found nothing, expected this key where there is more than a point");
-    if (points > max_points)
+    if (points > SP_MOUNTING_POINTS)
         return sp_read_fail(reader, sp_yaml_get(node, "spacing"), "spacing",
-                            "one that gives at most %g points, not %.3g", max_points, points);
+                            "one that gives at most %d points, not %.0f", SP_MOUNTING_POINTS, points);
     return true;
 }
 
@@ -228,9 +227,14 @@ bool sp_scene_read_pressures(const sp_fields *in, double **pressures, size_t *co
     *pressures = calloc(list ? node->count : 1, sizeof **pressures);
     if (!*pressures)
         return sp_fail_memory(reader->error);
-    for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL)
-        if (!sp_read_quantity_at(reader, child, key, &(*pressures)[(*count)++]))
+    for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL) {
+        double *pressure = &(*pressures)[(*count)++];
+        if (!sp_read_quantity_at(reader, child, key, pressure))
             return false;
+        for (const double *other = *pressures; other < pressure; other++)
+            if (*other == *pressure)
+                return sp_read_fail(reader, child, "pressure", "each pressure once");
+    }
     return true;
 }
 

@@ -74,6 +74,25 @@ static const sp_yaml *find_placed_type(const sp_yaml *place, const char *message
     return found;
 }
 
+/* The mount that a message "mounts: KIND 'NAME' (number 1): ..." speaks of, among those that places choose by name as
+ * well; the list where there is none. */
+static const sp_yaml *find_mount(const sp_yaml *list, const char *message)
+{
+    size_t number = 0;
+    for (const sp_yaml *entry = list->first; entry; entry = entry->next) {
+        const sp_yaml *mount = entry->first, *name = sp_yaml_get(mount, "name");
+        char start[SP_NAME + 80];
+        number++;
+        if (name)
+            snprintf(start, sizeof start, "mounts: %s '%.*s' (", mount->key, SP_NAME, name->text);
+        else
+            snprintf(start, sizeof start, "mounts: %s (number %zu)", mount->key, number);
+        if (!strncmp(message, start, strlen(start)))
+            return entry;
+    }
+    return list;
+}
+
 /* The setting that a message "key: ..." speaks of, the scene as a whole where there is none. */
 static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
 {
@@ -91,6 +110,8 @@ static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
     static const char *const blocks[] = {"criterion", "simulate", "place"};
     for (size_t i = 0; !found && i < sizeof blocks / sizeof *blocks; i++)
         found = sp_yaml_get(sp_yaml_get(tree, blocks[i]), key);
+    if (found && !strcmp(key, "mounts"))
+        found = find_mount(found, message);
     return found && found->file ? found : tree;
 }
 

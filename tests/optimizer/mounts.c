@@ -392,6 +392,31 @@ static void nothing_left_is_an_error(void **state)
     room_close(&r);
 }
 
+/* One limit for all of them, which names the mount of most points. */
+static void all_mounts_together_have_a_limit(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    sp_mount mounts[] = {{.kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .to = sp_v(0, 0, 1), .spacing = 1.0 / 49998},
+                         {.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .to = sp_v(0, 0, 1), .spacing = 1.0 / 50000}};
+    snprintf(mounts[1].name, sizeof mounts[1].name, "rack");
+    sp_place_options options = room_options();
+    options.mounts = mounts;
+    options.mount_count = 2;
+    size_t all[2], usable[2];
+    sp_error error = {0};
+    assert_true(sp_place_count_points(r.evaluator, &options, all, usable, &error));
+    assert_int_equal(all[0] + all[1], SP_MOUNTING_POINTS);
+    mounts[0].spacing = 1.0 / 49999;
+    assert_false(sp_place_count_points(r.evaluator, &options, all, usable, &error));
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
+    assert_string_equal(error.message,
+                        "mounts: box 'rack' (number 2): found 50001 mounting points, 100001 with those of all mounts, "
+                        "expected at most 100000 in all: a longer spacing gives fewer");
+    room_close(&r);
+}
+
 static void unusable_points_are_counted(void **state)
 {
     (void)state;
@@ -480,6 +505,7 @@ int main(void)
         cmocka_unit_test(small_parts_have_a_point),
         cmocka_unit_test(axes_fill_the_tilt),
         cmocka_unit_test(nothing_left_is_an_error),
+        cmocka_unit_test(all_mounts_together_have_a_limit),
         cmocka_unit_test(unusable_points_are_counted),
         cmocka_unit_test(welded_to_its_own_wall),
         cmocka_unit_test(distance_to_a_triangle),
