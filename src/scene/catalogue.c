@@ -246,7 +246,7 @@ bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)
     const sp_yaml *node = sp_yaml_get(scene->tree, "catalogue");
     if (!node)
         return true;
-    char *path = sp_scene_file(scene->directory, "the scene", reader, node, "catalogue");
+    char *path = sp_scene_file(scene->directory, sp_scene_place_of_files(scene), reader, node, "catalogue");
     sp_yaml *tree = path ? sp_yaml_load(path, reader->error) : NULL;
     bool good = tree && sp_scene_read_types_of(scene, reader, tree);
     sp_yaml_destroy(tree);

@@ -111,7 +111,7 @@ static bool read_unfolding(sp_scene *scene, const sp_reader *reader, const sp_ya
         return true;
     if (!dot || strcasecmp(dot, ".obj") != 0)
         return sp_read_fail(reader, file, "file", "an OBJ file, as simulate has atlas: reuse");
-    char *path = sp_scene_file(scene->directory, "the scene", reader, file, "file");
+    char *path = sp_scene_file(scene->directory, sp_scene_place_of_files(scene), reader, file, "file");
     if (path)
         scene->unfolded[index] = sp_unfolding_read(path, p->unit * p->transform.scale, reader->error);
     free(path);
@@ -121,7 +121,8 @@ static bool read_unfolding(sp_scene *scene, const sp_reader *reader, const sp_ya
 static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p,
                            sp_cad_account *account)
 {
-    char *path = sp_scene_file(scene->directory, "the scene", reader, sp_yaml_get(node, "file"), "file");
+    char *path =
+        sp_scene_file(scene->directory, sp_scene_place_of_files(scene), reader, sp_yaml_get(node, "file"), "file");
     sp_mesh *mesh = NULL;
     if (path && p->cad != SP_CAD_NONE)
         mesh = sp_cad_load(path, p->unit, &p->cut, account, reader->error);

@@ -26,6 +26,7 @@ static bool load(sp_scene *scene, FILE *stream, const char *path, const char *co
     scene->path = strdup(path);
     if (!scene->path)
         return sp_fail_memory(error);
+    scene->streamed = stream != NULL;
     scene->directory = sp_path_directory(stream ? "." : path, error);
     if (scene->directory)
         scene->tree = stream ? sp_yaml_load_stream(stream, path, error) : sp_yaml_load(path, error);

@@ -27,6 +27,7 @@ typedef struct {
 struct sp_scene {
     char *path;
     char *directory; /* that holds the scene, "." where the path names none */
+    bool streamed;   /* the scene lies in no directory: files are seen from the working directory */
     sp_yaml *tree;   /* the scene as it stands, overrides applied */
     sp_mesh *mesh;
     sp_surface *surfaces; /* [mesh->part_count] */
@@ -115,6 +116,11 @@ char *sp_path_join(const char *directory, const char *file, sp_error *error);
 char *sp_path_directory(const char *path, sp_error *error);
 /* `path` (seen from the working directory) as seen from `directory`, which need not exist yet. Malloc'd. */
 char *sp_path_relative(const char *path, const char *directory, sp_error *error);
+/* What paths in the scene are relative to, in words. */
+static inline const char *sp_scene_place_of_files(const sp_scene *scene)
+{
+    return scene->streamed ? "the working directory" : "the scene";
+}
 /* A file named under `key`, relative to a directory, that of `owner` ("the scene"), exists and can be opened. Returns
  * its path as sp_path_join does, NULL with an error. */
 char *sp_scene_file(const char *directory, const char *owner, const sp_reader *reader, const sp_yaml *node,

@@ -55,6 +55,10 @@ static void errors_in_it_say_where(void **state)
     (void)state;
     expect_with("sed s/geometry/geomtry/ room.yaml", "check -", 3, "standard input:1:1: geomtry: found a key");
     expect_with("</dev/null", "check -", 3, "standard input:1:1: YAML: found nothing");
+    expect_with("sed s/room.obj/hall.obj/ room.yaml", "check -", 3,
+                "expected a file, relative to the working directory");
+    expect_with("sed s/catalogue.yaml/none.yaml/ room.yaml", "check -", 3,
+                "expected a file, relative to the working directory");
     expect_with("cat room.yaml", "compare - -", 2, "found - 2 times, expected it once");
 }
 
