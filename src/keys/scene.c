@@ -99,9 +99,9 @@ static const sp_key scene_keys[] = {
 const sp_block sp_block_scene = {
     "scene", "a scene",
     "A scene file is YAML, without aliases, anchors and tags. A quantity is a number with its unit: 2 bar, 12 L/min, "
-    "30 deg, 250 mm, or as makers' sheets have it: 30 psig, 3 gpm, 12 lpm, 1 cP, 10 in; a number alone is a length in "
-    "m "
-    "or has no dimension. Axes may have any length but 0. Files are relative to the scene's folder",
+    "30 deg, 250 mm, or as makers' sheets have it: 30 psig or PSI, 2 barg or bar(g), 20 mWC, 3 gpm or USgpm, 12 lpm, "
+    "1 cfm, 1 cP, 10 in; a number alone is a length in m or has no dimension. Axes may have any length but 0. Files "
+    "are relative to the scene's folder",
     scene_keys};
 
 static const sp_key geometry_keys[] = {

@@ -32,7 +32,8 @@ static void leave(ut_error_message_handler handler)
 }
 
 /* What makers' sheets have and udunits does not know. A pressure is always a difference here, so that one above the
- * air's is no other; a US gallon is 231 cubic inches, exactly. */
+ * air's is no other; a US gallon is 231 cubic inches, exactly, and water in a column of 1000 kg/m³ under 9.80665 m/s².
+ */
 static const struct {
     const char *name, *scaled;
     double factor;
@@ -40,8 +41,23 @@ static const struct {
     {"deg", "rad", M_PI / 180}, {"gpm", "m3/s", 3.785411784e-3 / 60},
     {"lpm", "L/min", 1},        {"LPM", "L/min", 1},
     {"psig", "psi", 1},         {"barg", "bar", 1},
-    {"cP", "mPa.s", 1},
+    {"cP", "mPa.s", 1},         {"USgpm", "m3/s", 3.785411784e-3 / 60},
+    {"PSI", "psi", 1},          {"mWC", "Pa", 9806.65},
+    {"cfm", "ft3/min", 1},
 };
+
+/* What udunits would take for a product. */
+static const struct {
+    const char *spelt, *unit;
+} gauge_units[] = {{"bar(g)", "barg"}, {"psi(g)", "psig"}};
+
+static const char *without_brackets(const char *unit)
+{
+    for (size_t i = 0; i < sizeof gauge_units / sizeof *gauge_units; i++)
+        if (strcmp(unit, gauge_units[i].spelt) == 0)
+            return gauge_units[i].unit;
+    return unit;
+}
 
 static bool add_unit(ut_system *system, const char *name, double factor, const char *of)
 {
@@ -144,7 +160,7 @@ bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension
         return false;
     }
     ut_error_message_handler handler = enter();
-    ut_unit *from = plain_unit(unit) ? ut_parse(units->system, unit, UT_UTF8) : NULL;
+    ut_unit *from = plain_unit(unit) ? ut_parse(units->system, without_brackets(unit), UT_UTF8) : NULL;
     ut_unit *to = ut_parse(units->system, dimension->unit, UT_UTF8);
     bool good = from && to && convert(from, to, factor);
     if (!good)

@@ -10,7 +10,7 @@
 
 typedef struct sp_units sp_units;
 
-/* udunits' own system with `deg` and `gpm` added. */
+/* udunits' own system with `deg` and what makers' sheets have added. */
 sp_units *sp_units_create(sp_error *error);
 void sp_units_destroy(sp_units *units);
 

@@ -55,6 +55,14 @@ static void conversions(void **state)
     is("6 LPM", "m3/s", 1e-4);
     is("2 barg", "Pa", 2e5);
     is("20 psig", "Pa", 20 * 6894.757293168361);
+    is("20 PSI", "Pa", 20 * 6894.757293168361);
+    is("20 psi(g)", "Pa", 20 * 6894.757293168361);
+    is("2 bar(g)", "Pa", 2e5);
+    is("10 mWC", "Pa", 98066.5);
+    is("500 mmWC", "Pa", 0.5 * 9806.65);
+    is("1 USgpm", "m3/s", 3.785411784e-3 / 60);
+    is("1 usgpm", "m3/s", 3.785411784e-3 / 60);
+    is("1 cfm", "m3/s", 0.3048 * 0.3048 * 0.3048 / 60);
     is("1.1 cP", "Pa.s", 1.1e-3);
     is("60 L/min/m2", "m/s", 1e-3);
     is("60 L/(min.m^2)", "m/s", 1e-3);
@@ -85,6 +93,9 @@ static void refusals(void **state)
            "found '981 gal', expected a number and a unit that measures the same as m/s2: gal is the Galileo here: "
            "write gpm "
            "for US gallons per minute, or L/min");
+    is_not("2 bar(a)", "Pa",
+           "found '2 bar(a)', expected a number and a unit that measures the same as Pa: 'bar(a)' measures something "
+           "else");
     is_not("1e400 m", "m",
            "found '1e400 m', expected a number and a unit that measures the same as m: it is not finite");
     is_not("0.5 rad", "1", "found '0.5 rad', expected a number without unit: 'rad' measures something else");
