@@ -51,10 +51,10 @@ static void a_texel_too_long_for_the_pages_is_gone_below(void **state)
     json_t *below = expect_json("simulate flat.yaml --set simulate.texel=90mm --set simulate.atlas=reuse --json", 0);
     json_t *fidelity = json_object_get(below, "fidelity");
     assert_true(number(fidelity, "texel_m") <= 0.045 && number(fidelity, "texel_m") >= 0.02 - 1e-12);
-    assert_non_null(strstr(json_string_value(json_object_get(json_object_get(fidelity, "auto"), "texel")),
+    assert_non_null(strstr(json_string_value(json_object_get(json_object_get(fidelity, "auto"), "texel_m")),
                            "not the 90 mm asked for"));
     assert_true(fabs(number(json_object_get(below, "geometry"), "clean_area_m2") - 6) < 1e-9);
-    assert_null(json_object_get(json_object_get(json_object_get(kept, "fidelity"), "auto"), "texel"));
+    assert_null(json_object_get(json_object_get(json_object_get(kept, "fidelity"), "auto"), "texel_m"));
     json_decref(below);
     json_decref(kept);
 }
