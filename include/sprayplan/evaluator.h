@@ -112,6 +112,8 @@ typedef struct {
 #define SP_OPENINGS 16 /* as many are kept */
 /* The openings that are most seen through, in that order. Owned by the evaluator. None but for a cavity's point. */
 SP_API const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *count);
+/* How many more were found. Of those that few lines pass there may be more still. */
+SP_API size_t sp_evaluator_more_openings(const sp_evaluator *evaluator);
 /* m² of surface that is seen through openings alone and lies under the sky: it is left out. */
 SP_API double sp_evaluator_outdoors(const sp_evaluator *evaluator);
 /* Where what runs down the walls stands: hollows up to their rim, flats, and the lowest places of a vessel without its

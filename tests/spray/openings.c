@@ -9,7 +9,7 @@ static const double radius = 0.05, gap = 0.01;
 typedef struct {
     double wet, outdoors; /* m² */
     sp_opening openings[SP_OPENINGS];
-    size_t count;
+    size_t count, more;
 } flooded;
 
 /* What is wet of a shape from a point, with a cap or without: NULL. */
@@ -31,6 +31,7 @@ static flooded flood(shape s, sp_vec3 point, const sp_cap *cap)
     flooded found = {.wet = sp_evaluator_patches(evaluator)->total_area, .outdoors = sp_evaluator_outdoors(evaluator)};
     const sp_opening *openings = sp_evaluator_openings(evaluator, &found.count);
     memcpy(found.openings, openings, found.count * sizeof *openings);
+    found.more = sp_evaluator_more_openings(evaluator);
     sp_evaluator_destroy(evaluator);
     sp_mesh_destroy(mesh);
     return found;
@@ -153,6 +154,77 @@ static shape box_with_a_hole(void)
     return s;
 }
 
+/* A room of 1 m, its lid holed: width, height and orientation of the hole. */
+static shape turned_box_with_a_hole(double width, double height, const sp_vec3 axes[3])
+{
+    const double low[] = {0.5 - width / 2, 0.5 - height / 2};
+    const double lid[][4] = {{0, 0, 1, low[1]},
+                             {0, low[1], low[0], height},
+                             {low[0] + width, low[1], low[0], height},
+                             {0, low[1] + height, 1, low[1]}};
+    shape s = shape_create();
+    shape_part(&s, "box");
+    for (size_t i = 0; i < 4; i++)
+        shape_sheet(&s, sp_along(sp_scale(axes[0], lid[i][0]), lid[i][1], axes[1]), sp_scale(axes[0], lid[i][2]),
+                    sp_scale(axes[1], lid[i][3]), 1);
+    for (int i = 0; i < 3; i++) {
+        if (i < 2)
+            shape_sheet(&s, sp_v(0, 0, 0), axes[i], axes[2], 1);
+        shape_sheet(&s, axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3], 1);
+    }
+    return s;
+}
+
+/* However long it is and whichever way it lies, and not much wider than that takes. */
+static void a_cap_covers_every_corner_of_its_hole(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        double width = 0.3 - 0.02 * i, height = 0.05 + 0.17 * (i % 3), turn = 0.37 * i, lean = i % 4 ? 0.6 * i : 0;
+        const sp_vec3 across = sp_v(cos(turn), sin(turn), 0), along = sp_v(-sin(turn), cos(turn), 0),
+                      up = sp_v(0, 0, 1);
+        const sp_vec3 axes[] = {across, sp_along(sp_scale(along, cos(lean)), sin(lean), up),
+                                sp_along(sp_scale(up, cos(lean)), -sin(lean), along)};
+        sp_vec3 middle = sp_scale(sp_add(axes[0], axes[1]), 0.5);
+        flooded open = flood(turned_box_with_a_hole(width, height, axes),
+                             sp_along(sp_along(middle, 0.5, axes[2]), 0.1, axes[0]), NULL);
+        assert_int_equal(open.count, 1);
+        double need = 0;
+        for (int corner = 0; corner < 4; corner++) {
+            sp_vec3 beside = sp_along(middle, corner & 1 ? 0.5 * width : -0.5 * width, axes[0]);
+            beside = sp_along(beside, corner & 2 ? 0.5 * height : -0.5 * height, axes[1]);
+            need = fmax(need, sp_distance(beside, open.openings[0].place));
+        }
+        assert_true(open.openings[0].radius >= need && open.openings[0].radius <= 1.1 * need);
+    }
+}
+
+/* Its lines lean over from afar, and would step over what parts the holes. Of those that are not kept it is told how
+ * many there are. */
+static void caps_of_a_screen_cover_one_hole_each(void **state)
+{
+    (void)state;
+    shape s = shape_create();
+    shape_part(&s, "lid");
+    for (int i = 0; i < 20; i++)
+        for (int j = 0; j < 20; j++)
+            if (i % 4 != 2 || j % 4 != 2)
+                shape_sheet(&s, sp_v(0.05 * i, 0.05 * j, 1), sp_v(0.05, 0, 0), sp_v(0, 0.05, 0), 1);
+    shape_part(&s, "room");
+    const sp_vec3 low = sp_v(0, 0, 0), x = sp_v(1, 0, 0), y = sp_v(0, 1, 0), z = sp_v(0, 0, 1);
+    shape_sheet(&s, low, x, y, 1);
+    shape_sheet(&s, low, z, x, 1);
+    shape_sheet(&s, low, y, z, 1);
+    shape_sheet(&s, y, x, z, 1);
+    shape_sheet(&s, x, z, y, 1);
+    flooded open = flood(s, sp_v(0.3, 0.6, 0.5), NULL);
+    assert_int_equal(open.count, SP_OPENINGS);
+    assert_int_equal(open.more, 25 - SP_OPENINGS);
+    double need = 0.025 * sqrt(2);
+    for (size_t i = 0; i < open.count; i++)
+        assert_true(open.openings[i].radius >= need && open.openings[i].radius <= 1.1 * need);
+}
+
 /* Most see it aslant. Ground under it changes nothing, and the cap that is offered shuts it. */
 static void a_hole_is_one_opening_where_it_is(void **state)
 {
@@ -257,6 +329,8 @@ int main(void)
         cmocka_unit_test(caps_cut_what_is_drawn_twice),
         cmocka_unit_test(what_lies_outside_changes_nothing),
         cmocka_unit_test(a_hole_is_one_opening_where_it_is),
+        cmocka_unit_test(a_cap_covers_every_corner_of_its_hole),
+        cmocka_unit_test(caps_of_a_screen_cover_one_hole_each),
         cmocka_unit_test(a_slot_is_one_opening_and_a_hole_beside_it_another),
         cmocka_unit_test(no_cap_is_offered_that_parts_what_is_wet),
         cmocka_unit_test(no_cap_is_offered_that_would_not_shut),

@@ -255,7 +255,7 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
         done =
             setup->cavity == SP_CAVITY_OUTSIDE || sp_flood_keep_indoors(&flood, found->liquid, &found->outdoors, error);
         if (done && setup->cavity == SP_CAVITY_POINT)
-            done = sp_flood_openings(&flood, found->liquid, found->openings, SP_OPENINGS, &found->opening_count, error);
+            done = sp_flood_openings(&flood, found, error);
     }
     free(flood.parent);
     free(flood.seen);

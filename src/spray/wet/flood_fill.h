@@ -41,16 +41,12 @@ sp_ray sp_sphere_sight(sp_vec3 point, int index, int count);
 sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line);
 uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit);
 
-/* openings.c: where lines leave the liquid, from all that were cast: *count of them, `most` at most. */
-bool sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most, size_t *count,
-                       sp_error *error);
-
 /* What the flood found. */
 typedef struct {
     bool *liquid;    /* [2 faces->count], the caller's: sides to which lines of sight lead from the cavity, on and on */
     double outdoors; /* m², of what they lead to under the sky, left out */
     sp_opening openings[SP_OPENINGS];
-    size_t opening_count;
+    size_t opening_count, more_openings; /* those kept; those found besides */
 } sp_flooded;
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,
                     sp_flooded *found, sp_error *error);
@@ -59,6 +55,9 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
  * in `sights`, and joins. *joined becomes how many joins were new. */
 #define SP_FLOOD_LINES 32768 /* numbers of lines that the flood itself uses */
 bool sp_flood_cast(sp_flood *flood, const bool *sides, uint64_t first, uint64_t least, size_t *joined, sp_error *error);
+
+/* openings.c: where lines leave the liquid that was found, from all that were cast. */
+bool sp_flood_openings(const sp_flood *flood, sp_flooded *found, sp_error *error);
 
 /* outdoors.c: clears liquid[side] of what is reached through openings alone but lies under the sky; its area (m²) in
  * *left_out. */

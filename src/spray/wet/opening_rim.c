@@ -57,13 +57,12 @@ sp_opening_rim sp_opening_rim_find(const sp_flood *flood, const bool *liquid, sp
     return found;
 }
 
-/* Square to a rim, as long as twice its area (Newell's method). */
-sp_vec3 sp_opening_rim_normal(const sp_opening_rim *rim)
+/* Newell's method. */
+sp_vec3 sp_rim_normal(const sp_vec3 *rim, int count)
 {
-    sp_vec3 twice = sp_v(0, 0, 0), first = rim->point[0];
-    for (int i = 0; i < SP_RIM_POINTS; i++)
-        twice =
-            sp_add(twice, sp_cross(sp_sub(rim->point[i], first), sp_sub(rim->point[(i + 1) % SP_RIM_POINTS], first)));
+    sp_vec3 twice = sp_v(0, 0, 0);
+    for (int i = 0; i < count; i++)
+        twice = sp_add(twice, sp_cross(sp_sub(rim[i], rim[0]), sp_sub(rim[(i + 1) % count], rim[0])));
     return twice;
 }
 
@@ -71,7 +70,7 @@ sp_vec3 sp_opening_rim_normal(const sp_opening_rim *rim)
  * no rim of it. */
 bool sp_opening_rim_is_flat(const sp_opening_rim *rim, double off, sp_vec3 direction)
 {
-    sp_vec3 twice = sp_opening_rim_normal(rim), first = rim->point[0];
+    sp_vec3 twice = sp_rim_normal(rim->point, SP_RIM_POINTS), first = rim->point[0];
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < SP_RIM_POINTS; i++) {
         double height = sp_dot(twice, sp_sub(rim->point[i], first));
@@ -82,30 +81,29 @@ bool sp_opening_rim_is_flat(const sp_opening_rim *rim, double off, sp_vec3 direc
            fabs(sp_dot(twice, direction)) >= ASLANT * sp_length(twice);
 }
 
-/* The middle of a rim's area, from the triangles about its first point. */
-sp_vec3 sp_opening_rim_middle(const sp_opening_rim *rim)
+/* From the triangles about its first point. */
+sp_vec3 sp_rim_middle(const sp_vec3 *rim, int count)
 {
-    sp_vec3 twice = sp_opening_rim_normal(rim), moment = sp_v(0, 0, 0);
-    for (int i = 1; i + 1 < SP_RIM_POINTS; i++) {
-        sp_vec3 a = sp_sub(rim->point[i], rim->point[0]), b = sp_sub(rim->point[i + 1], rim->point[0]);
+    sp_vec3 twice = sp_rim_normal(rim, count), moment = sp_v(0, 0, 0);
+    for (int i = 1; i + 1 < count; i++) {
+        sp_vec3 a = sp_sub(rim[i], rim[0]), b = sp_sub(rim[i + 1], rim[0]);
         moment = sp_along(moment, sp_dot(sp_cross(a, b), twice) / (3 * sp_dot(twice, twice)), sp_add(a, b));
     }
-    return sp_add(rim->point[0], moment);
+    return sp_add(rim[0], moment);
 }
 
-/* The narrowest that a rim is in its plane: square to one of the sides between its points. */
-double sp_opening_rim_width(const sp_opening_rim *rim, sp_vec3 normal)
+double sp_rim_width(const sp_vec3 *rim, int count, sp_vec3 normal)
 {
     double narrowest = INFINITY;
-    for (int i = 0; i < SP_RIM_POINTS; i++) {
-        sp_vec3 across = sp_cross(normal, sp_sub(rim->point[(i + 1) % SP_RIM_POINTS], rim->point[i]));
+    for (int i = 0; i < count; i++) {
+        sp_vec3 across = sp_cross(normal, sp_sub(rim[(i + 1) % count], rim[i]));
         if (!(sp_length(across) > 0))
             continue;
         across = sp_unit(across);
         double least = INFINITY, most = -INFINITY;
-        for (int j = 0; j < SP_RIM_POINTS; j++) {
-            least = fmin(least, sp_dot(across, rim->point[j]));
-            most = fmax(most, sp_dot(across, rim->point[j]));
+        for (int j = 0; j < count; j++) {
+            least = fmin(least, sp_dot(across, rim[j]));
+            most = fmax(most, sp_dot(across, rim[j]));
         }
         narrowest = fmin(narrowest, most - least);
     }

@@ -15,9 +15,10 @@ typedef struct {
 /* `liquid` tells by side what lines stay with: [flood->sides]. */
 sp_opening_rim sp_opening_rim_find(const sp_flood *flood, const bool *liquid, sp_ray line);
 bool sp_opening_rim_is_flat(const sp_opening_rim *rim, double off, sp_vec3 direction);
-/* Of rims that are flat. */
-sp_vec3 sp_opening_rim_normal(const sp_opening_rim *rim);
-sp_vec3 sp_opening_rim_middle(const sp_opening_rim *rim);
-double sp_opening_rim_width(const sp_opening_rim *rim, sp_vec3 normal);
+/* Of flat rims of `count` points in turn: square to it and as long as twice its area; the middle of its area; the
+ * narrowest that it is, square to one of the sides between its points. */
+sp_vec3 sp_rim_normal(const sp_vec3 *rim, int count);
+sp_vec3 sp_rim_middle(const sp_vec3 *rim, int count);
+double sp_rim_width(const sp_vec3 *rim, int count, sp_vec3 normal);
 
 #endif

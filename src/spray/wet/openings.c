@@ -4,12 +4,12 @@
  * are taken first, the best seen before others: lines that pass the same plane in the same clear stretch of it use the
  * same opening, however far they pass from its place.
  */
+#include "spray/wet/opening_reach.h"
 #include "spray/wet/opening_rim.h"
 
 #include <stdlib.h>
 
 #define MOST_MEASURED 512 /* lines, evenly chosen */
-#define FLAT 0.25         /* of an opening's width, that its rim may lie off a plane */
 #define SQUARE 0.996      /* cosine of 5 degrees: a rim that lies so nearly square to an axis is taken to be */
 #define SLENDER 5         /* how many times its width a rim may reach: the plane through a longer one is not known */
 #define STRETCH 16        /* points of a plane that must be clear between two places for them to be one opening */
@@ -27,6 +27,7 @@ typedef struct {
     sp_opening opening;
     sp_ray line;
     double shown; /* m² of its rim's area, as it is seen along the line; 0: not whole */
+    bool reached; /* the rim was followed all round: it reaches as far as its radius and no farther */
 } seen_opening;
 
 /* The axis that a direction nearly has, or itself. What stands in a rim turns the plane through it. */
@@ -39,8 +40,10 @@ static sp_vec3 squared(sp_vec3 normal)
 /* Where a rim lies, and how wide it is and how far it reaches, unless it is a slit. */
 static void add_rim(seen_opening *seen, const sp_opening_rim *rim)
 {
-    sp_vec3 twice = sp_opening_rim_normal(rim), normal = squared(sp_unit(twice)), outward = seen->line.velocity;
-    sp_opening whole = {.place = sp_opening_rim_middle(rim), .width = sp_opening_rim_width(rim, normal)};
+    sp_vec3 twice = sp_rim_normal(rim->point, SP_RIM_POINTS), normal = squared(sp_unit(twice)),
+            outward = seen->line.velocity;
+    sp_opening whole = {.place = sp_rim_middle(rim->point, SP_RIM_POINTS),
+                        .width = sp_rim_width(rim->point, SP_RIM_POINTS, normal)};
     whole.normal = sp_dot(normal, outward) > 0 ? normal : sp_sub(sp_v(0, 0, 0), normal); /* without -0 */
     for (int i = 0; i < SP_RIM_POINTS; i++)
         whole.radius = fmax(whole.radius, sp_distance(rim->point[i], whole.place));
@@ -62,53 +65,82 @@ static seen_opening measure(const sp_flood *flood, const bool *liquid, sp_ray li
         if (rim.there[i] && rim.there[i + SP_RIM_POINTS / 2] && width < found.opening.width)
             found.opening = (sp_opening){.place = sp_scale(sp_add(from, to), 0.5), .width = width};
     }
-    if (sp_opening_rim_is_flat(&rim, FLAT * found.opening.width, line.velocity))
+    if (sp_opening_rim_is_flat(&rim, SP_OPENING_FLAT * found.opening.width, line.velocity))
         add_rim(&found, &rim);
     return found;
 }
 
-/* Whether nothing is between two points. */
-static bool is_clear(const sp_flood *flood, sp_vec3 from, sp_vec3 to)
+/* Where a line passes an opening's plane. */
+static sp_vec3 passing(const sp_opening *opening, const sp_ray *line)
 {
-    sp_ray line = {.origin = from, .velocity = sp_sub(to, from), .t_min = 0, .t_max = 1, .skip = SP_NONE};
-    sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
-    return hit.triangle == SP_NONE && !(flood->setup->cap_count && sp_caps_block(flood->setup, &line, 1));
+    double along = sp_dot(line->velocity, opening->normal);
+    return sp_along(line->origin, sp_dot(sp_sub(opening->place, line->origin), opening->normal) / along,
+                    line->velocity);
 }
 
 /* Whether a line leaves through a known opening; *through is then where it passes its plane. From the opening's place
  * to there the plane is clear, and so is the way along it on the liquid's side: beside a wall lie other openings. */
-static bool leaves_through(const sp_flood *flood, const sp_opening *known, const sp_ray *line, sp_vec3 *through)
+static bool leaves_through(const sp_flood *flood, const seen_opening *seen, const sp_ray *line, sp_vec3 *through)
 {
-    double along = sp_dot(line->velocity, known->normal);
-    double t = along > 0 ? sp_dot(sp_sub(known->place, line->origin), known->normal) / along : 0;
-    if (!(t > 0))
+    const sp_opening *known = &seen->opening;
+    if (!(sp_dot(line->velocity, known->normal) > 0) ||
+        !(sp_dot(sp_sub(known->place, line->origin), known->normal) > 0))
         return false;
-    *through = sp_along(line->origin, t, line->velocity);
-    sp_vec3 inward = sp_scale(known->normal, -FLAT * known->width), way = sp_sub(*through, known->place);
-    bool clear = is_clear(flood, sp_add(known->place, inward), sp_add(*through, inward));
+    *through = passing(known, line);
+    if (seen->reached && sp_distance(*through, known->place) > known->radius)
+        return false;
+    sp_vec3 inward = sp_scale(known->normal, -SP_OPENING_FLAT * known->width), way = sp_sub(*through, known->place);
+    bool clear = sp_opening_is_clear(flood, sp_add(known->place, inward), sp_add(*through, inward));
     for (int i = 1; i <= STRETCH && clear; i++) {
         sp_vec3 point = sp_along(known->place, (double)i / STRETCH, way);
-        clear = is_clear(flood, sp_add(point, inward), sp_sub(point, inward));
+        clear = sp_opening_is_clear(flood, sp_add(point, inward), sp_sub(point, inward));
     }
     return clear;
 }
 
-/* Adds a line's opening to those known, or makes it a new one. A known one reaches as far as lines pass its plane where
- * they see a rim themselves. */
-static size_t gather(const sp_flood *flood, seen_opening *known, size_t count, const seen_opening *found, double same)
+/* The first of the known openings that a line leaves through, or `count`. A known one reaches as far as lines pass its
+ * plane where they see a rim themselves. */
+static size_t find_passed(const sp_flood *flood, seen_opening *known, size_t count, const seen_opening *found)
 {
     for (size_t i = 0; i < count; i++) {
         sp_opening *opening = &known[i].opening;
         sp_vec3 through;
-        bool passes = leaves_through(flood, opening, &found->line, &through);
-        if (passes && sp_distance(through, found->opening.place) <= found->opening.width)
+        if (!leaves_through(flood, &known[i], &found->line, &through))
+            continue;
+        if (sp_distance(through, found->opening.place) <= found->opening.width)
             opening->radius = fmax(opening->radius, sp_distance(through, opening->place));
-        if (passes || sp_distance(opening->place, found->opening.place) <= fmax(same, opening->width)) {
-            opening->share += found->opening.share;
-            return count;
-        }
+        return i;
+    }
+    return count;
+}
+
+/* The first of the known openings that is near, or `count`. Of two whose rims are seen whole it is known that they are
+ * two, but for what lies within one. */
+static size_t find_near(const seen_opening *known, size_t count, const seen_opening *found, double same)
+{
+    size_t i = 0;
+    for (; i < count; i++) {
+        double width = known[i].opening.width;
+        double near = known[i].shown > 0 && found->shown > 0 ? 0.5 * width : fmax(same, width);
+        if (sp_distance(known[i].opening.place, found->opening.place) <= near)
+            break;
+    }
+    return i;
+}
+
+/* Adds a line's opening to those known, or makes it a new one. */
+static size_t gather(const sp_flood *flood, seen_opening *known, size_t count, const seen_opening *found, double same)
+{
+    size_t at = find_passed(flood, known, count, found);
+    if (at == count)
+        at = find_near(known, count, found, same);
+    if (at < count) {
+        known[at].opening.share += found->opening.share;
+        return count;
     }
     known[count] = *found;
+    known[count].reached =
+        found->shown > 0 && sp_opening_reach_find(flood, passing(&found->opening, &found->line), &known[count].opening);
     return count + 1;
 }
 
@@ -233,25 +265,31 @@ static void try_caps(const sp_flood *flood, const bool *liquid, const seen_openi
     }
 }
 
-bool sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most, size_t *count,
-                       sp_error *error)
+/* Keeps the openings that are most seen through, each with its cap, and counts the others. */
+static void keep(seen_opening *known, size_t known_count, sp_flooded *found)
+{
+    qsort(known, known_count, sizeof *known, by_share);
+    for (size_t i = 0; i < known_count && known[i].opening.share >= RARE * known[0].opening.share; i++) {
+        if (found->opening_count == SP_OPENINGS) {
+            found->more_openings++;
+            continue;
+        }
+        lay_cap(&known[i].opening);
+        found->openings[found->opening_count++] = known[i].opening;
+    }
+}
+
+bool sp_flood_openings(const sp_flood *flood, sp_flooded *found, sp_error *error)
 {
     uint32_t *lines = calloc(2 * flood->sides + 1, sizeof *lines);
     bool *sheltered = malloc(flood->sides + 1);
     seen_opening *seen = malloc(MOST_MEASURED * sizeof *seen), *known = malloc(MOST_MEASURED * sizeof *known);
     bool done = lines && sheltered && seen && known;
     if (done) {
-        find_sheltered(flood, liquid, lines, sheltered);
-        size_t seen_count = measure_leaving(flood, liquid, sheltered, seen);
-        size_t known_count = join(flood, seen, seen_count, known);
-        qsort(known, known_count, sizeof *known, by_share); /* the most seen through first */
-        for (*count = 0; *count < known_count && *count < most; ++*count) {
-            if (known[*count].opening.share < RARE * known[0].opening.share)
-                break;
-            openings[*count] = known[*count].opening;
-            lay_cap(&openings[*count]);
-        }
-        try_caps(flood, liquid, seen, seen_count, openings, *count);
+        find_sheltered(flood, found->liquid, lines, sheltered);
+        size_t seen_count = measure_leaving(flood, found->liquid, sheltered, seen);
+        keep(known, join(flood, seen, seen_count, known), found);
+        try_caps(flood, found->liquid, seen, seen_count, found->openings, found->opening_count);
     }
     free(lines);
     free(sheltered);

@@ -67,6 +67,11 @@ const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *c
     return evaluator->wet->flooded.openings;
 }
 
+size_t sp_evaluator_more_openings(const sp_evaluator *evaluator)
+{
+    return evaluator->wet->flooded.more_openings;
+}
+
 double sp_evaluator_outdoors(const sp_evaluator *evaluator)
 {
     return evaluator->wet->flooded.outdoors;
