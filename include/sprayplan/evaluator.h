@@ -116,6 +116,17 @@ SP_API const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, si
 SP_API size_t sp_evaluator_more_openings(const sp_evaluator *evaluator);
 /* m² of surface that is seen through openings alone and lies under the sky: it is left out. */
 SP_API double sp_evaluator_outdoors(const sp_evaluator *evaluator);
+/* What a cap of the setup does for the finding of what is wet. */
+typedef enum {
+    SP_CAP_SHUTS,  /* it parts what is wet from something, or may do so */
+    SP_CAP_PASSED, /* nothing: liquid passes round more than half of its rim */
+    SP_CAP_DRY,    /* nothing: no liquid comes to it */
+} sp_cap_use;
+/* cap: below the setup's cap_count. */
+SP_API sp_cap_use sp_evaluator_cap_use(const sp_evaluator *evaluator, size_t cap);
+/* m² of surface that liquid would reach without the caps, and does not; 0 where no cavity is named. It takes as long as
+ * the finding of what is wet. False, with an error, where memory runs out. */
+SP_API bool sp_evaluator_beyond_caps(const sp_evaluator *evaluator, double *area, sp_error *error);
 /* Where what runs down the walls stands: hollows up to their rim, flats, and the lowest places of a vessel without its
  * drain. */
 typedef struct {

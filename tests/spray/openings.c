@@ -10,6 +10,8 @@ typedef struct {
     double wet, outdoors; /* m² */
     sp_opening openings[SP_OPENINGS];
     size_t count, more;
+    sp_cap_use use; /* of the cap */
+    double beyond;  /* it, m² */
 } flooded;
 
 /* What is wet of a shape from a point, with a cap or without: NULL. */
@@ -32,6 +34,9 @@ static flooded flood(shape s, sp_vec3 point, const sp_cap *cap)
     const sp_opening *openings = sp_evaluator_openings(evaluator, &found.count);
     memcpy(found.openings, openings, found.count * sizeof *openings);
     found.more = sp_evaluator_more_openings(evaluator);
+    if (cap)
+        found.use = sp_evaluator_cap_use(evaluator, 0);
+    assert_true(sp_evaluator_beyond_caps(evaluator, &found.beyond, &error));
     sp_evaluator_destroy(evaluator);
     sp_mesh_destroy(mesh);
     return found;
@@ -78,6 +83,7 @@ static void gaps_and_caps(void **state)
     flooded shut = flood(gap_around_the_shaft(), point, &cap);
     assert_true(shut.outdoors == 0);
     assert_int_equal(shut.count, 0);
+    assert_int_equal(shut.use, SP_CAP_SHUTS);
     /* the cap halves the shaft's side in the hole; the hole's wall is one face or two from end to end */
     assert_true(shut.wet > inside + 0.4 * in_hole && shut.wet < inside + 1.01 * in_hole);
 }
@@ -105,6 +111,23 @@ static void caps_cut_what_is_drawn_twice(void **state)
     const sp_cap cap = {{0.5, 0.5, 1}, {0, 0, 1}, 0.8};
     for (int sheets = 1; sheets <= 2; sheets++)
         assert_float_equal(flood(box_without_a_lid(sheets), sp_v(0.5, 0.3, 0.5), &cap).wet, 5.4, 1e-9);
+}
+
+/* One that lies in the liquid, by some inches or by far, one that is too small, and one that parts the room. */
+static void caps_tell_what_they_are_good_for(void **state)
+{
+    (void)state;
+    const sp_cap caps[] = {{{0.5, 0.5, 1.01}, {0, 0, 1}, 0.8}, {{0.5, 0.5, 0.95}, {0, 0, 1}, 0.45},
+                           {{0.5, 0.5, 0.5}, {1, 2, 3}, 0.2},  {{0.5, 0.5, 1}, {0, 0, 1}, 0.3},
+                           {{0.5, 0.5, 1000}, {0, 0, 1}, 0.8}, {{0.5, 0.5, -0.01}, {0, 0, 1}, 0.5},
+                           {{0.5, 0.5, 0.4}, {0, 0, 1}, 0.8}};
+    const sp_cap_use uses[] = {SP_CAP_SHUTS, SP_CAP_PASSED, SP_CAP_PASSED, SP_CAP_PASSED,
+                               SP_CAP_DRY,   SP_CAP_DRY,    SP_CAP_SHUTS};
+    for (size_t i = 0; i < sizeof caps / sizeof *caps; i++) {
+        flooded capped = flood(box_without_a_lid(0), sp_v(0.5, 0.3, 0.2), &caps[i]);
+        assert_int_equal(capped.use, uses[i]);
+        assert_float_equal(capped.beyond, i == 6 ? 4 * 0.6 : 0, 1e-9);
+    }
 }
 
 /* A pot with an outlet in its bottom, with and without a floor beneath it. */
@@ -327,6 +350,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gaps_and_caps),
         cmocka_unit_test(caps_cut_what_is_drawn_twice),
+        cmocka_unit_test(caps_tell_what_they_are_good_for),
         cmocka_unit_test(what_lies_outside_changes_nothing),
         cmocka_unit_test(a_hole_is_one_opening_where_it_is),
         cmocka_unit_test(a_cap_covers_every_corner_of_its_hole),
