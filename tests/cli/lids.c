@@ -13,31 +13,55 @@
 static const char leaking[] = "geometry:\n  - file: gap.obj\ncavity: [0.3 m, 0 m, 0.5 m]\nsimulate: {texel: 20 mm}\n";
 static const char capped[] = "caps:\n  - {point: [0 m, 0 m, 1.01 m], normal: [0, 0, 1], radius: 70 mm}\n";
 
+/* A mesh in the workplace, moved along the diagonal; it is destroyed. */
+static void write_shape(const char *name, shape *s, double moved)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", workplace, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (size_t i = 0; i < s->point_count; i++)
+        fprintf(file, "v %.17g %.17g %.17g\n", s->points[i].x + moved, s->points[i].y + moved, s->points[i].z + moved);
+    for (size_t t = 0; t < s->triangle_count; t++) {
+        if (t == 0 || s->part[t] != s->part[t - 1])
+            fprintf(file, "g %s\n", s->names[s->part[t]]);
+        fprintf(file, "f %u %u %u\n", s->triangles[t][0] + 1, s->triangles[t][1] + 1, s->triangles[t][2] + 1);
+    }
+    assert_int_equal(fclose(file), 0);
+    free(s->points);
+    free(s->triangles);
+    free(s->part);
+}
+
 static void write_gap(void)
 {
     shape s = shape_create();
     const double hole = RADIUS + GAP, wall[][2] = {{0, 0},       {0.5, 0},     {0.5, 1},      {hole, 1},
                                                    {hole, 1.02}, {0.52, 1.02}, {0.52, -0.02}, {0, -0.02}};
     const double shaft[][2] = {{0, 1.4}, {RADIUS, 1.4}, {RADIUS, 0.3}, {0, 0.3}};
-    char path[1024];
-    snprintf(path, sizeof path, "%s/gap.obj", workplace);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
+    shape_part(&s, "wall");
     shape_turned(&s, wall, 8, SEGMENTS);
-    size_t of_wall = s.triangle_count;
+    shape_part(&s, "shaft");
     shape_turned(&s, shaft, 4, SEGMENTS);
-    for (size_t i = 0; i < s.point_count; i++)
-        fprintf(file, "v %.17g %.17g %.17g\n", s.points[i].x, s.points[i].y, s.points[i].z);
-    for (size_t t = 0; t < s.triangle_count; t++)
-        fprintf(file, "%sf %u %u %u\n",
-                t == 0         ? "g wall\n"
-                : t == of_wall ? "g shaft\n"
-                               : "",
-                s.triangles[t][0] + 1, s.triangles[t][1] + 1, s.triangles[t][2] + 1);
-    assert_int_equal(fclose(file), 0);
-    free(s.points);
-    free(s.triangles);
-    free(s.part);
+    write_shape("gap.obj", &s, 0);
+}
+
+/* A room of 1 m with a lid of `cells` by `cells`, of which every third of every third row is a hole. */
+static void write_room(const char *name, int cells, double moved)
+{
+    const sp_vec3 low = sp_v(0, 0, 0), x = sp_v(1, 0, 0), y = sp_v(0, 1, 0), z = sp_v(0, 0, 1);
+    double cell = 1.0 / cells;
+    shape s = shape_create();
+    shape_part(&s, "room");
+    for (int i = 0; i < cells * cells; i++)
+        if (i % cells % 3 != 1 || i / cells % 3 != 1)
+            shape_sheet(&s, sp_v(cell * (i % cells), cell * (i / cells), 1), sp_scale(x, cell), sp_scale(y, cell), 1);
+    shape_sheet(&s, low, x, y, 1);
+    shape_sheet(&s, low, z, x, 1);
+    shape_sheet(&s, low, y, z, 1);
+    shape_sheet(&s, y, x, z, 1);
+    shape_sheet(&s, x, z, y, 1);
+    write_shape(name, &s, moved);
 }
 
 static int open_with_gap(void **state)
@@ -113,11 +137,96 @@ static void the_picture_is_the_same_for_any_number_of_threads(void **state)
     free(bytes[1]);
 }
 
+static size_t count_of(const json_t *object, const char *key)
+{
+    return json_array_size(json_object_get(object, key));
+}
+
+/* Far from the origin of coordinates all that is printed is told apart still, and the cap that is to be pasted shuts
+ * what it did. */
+static void a_cap_that_is_pasted_shuts_far_away(void **state)
+{
+    (void)state;
+    for (double moved = 0; moved < 1e7; moved = 10 * moved + 54321) {
+        char scene[512], capped_scene[1024], low[64];
+        write_room("far.obj", 3, moved);
+        snprintf(scene, sizeof scene, "geometry: [{file: far.obj}]\ncavity: [%.1f m, %.1f m, %.1f m]\n", moved + 0.4,
+                 moved + 0.6, moved + 0.5);
+        write_file("far.yaml", scene);
+        outcome told = run_program("check far.yaml " COARSE);
+        assert_null(strstr(told.out, "e+"));
+        snprintf(low, sizeof low, "%.0f, %.0f, %.0f", moved, moved, moved);
+        assert_non_null(strstr(told.out, low));
+        snprintf(low, sizeof low, " %.0f, %.0f, %.0f\n", moved + 1, moved + 1, moved + 1);
+        assert_non_null(strstr(told.out, low));
+        char *cap = strstr(told.out, "{point:");
+        assert_non_null(cap);
+        *strchr(cap, '\n') = '\0';
+        snprintf(capped_scene, sizeof capped_scene, "%scaps: [%s]\n", scene, cap);
+        write_file("far.yaml", capped_scene);
+        forget(&told);
+        json_t *shut = expect_json("check far.yaml --json " COARSE, 0);
+        assert_int_equal(count_of(shut, "openings"), 0);
+        assert_int_equal(count_of(shut, "warnings"), 0);
+        assert_float_equal(number(shut, "clean_area_m2"), 6 - 1.0 / 9, 1e-6);
+        json_decref(shut);
+    }
+}
+
+static void openings_that_are_not_listed_are_counted(void **state)
+{
+    (void)state;
+    write_room("screen.obj", 15, 0);
+    write_file("screen.yaml", "geometry: [{file: screen.obj}]\ncavity: [0.4 m, 0.6 m, 0.5 m]\n");
+    json_t *object = expect_json("check screen.yaml --json " COARSE, 0);
+    size_t listed = count_of(object, "openings");
+    assert_int_equal(listed, SP_OPENINGS);
+    assert_int_equal(number(object, "more_openings"), 25 - SP_OPENINGS);
+    json_decref(object);
+    outcome told = run_program("check screen.yaml " COARSE);
+    assert_non_null(strstr(told.out, "\nand at least 9 more"));
+    forget(&told);
+}
+
+/* One cap lies in the midst of the liquid, one out in the sky, and one may part the room. */
+static void write_mistyped(int radius)
+{
+    char scene[512];
+    snprintf(scene, sizeof scene,
+             "geometry: [{file: open.obj}]\ncavity: [0.4 m, 0.6 m, 0.2 m]\ncaps:\n"
+             "  - {point: [0.5 m, 0.5 m, 0.7 m], normal: [0, 0, 1], radius: 200 mm}\n"
+             "  - {point: [0.5 m, 0.5 m, 70 m], normal: [0, 0, 1], radius: 200 mm}\n"
+             "  - {point: [0.5 m, 0.5 m, 0.4 m], normal: [0, 0, 1], radius: %d mm}\n",
+             radius);
+    write_file("mistyped.yaml", scene);
+}
+
+static void caps_that_shut_nothing_are_told(void **state)
+{
+    (void)state;
+    write_room("open.obj", 3, 0);
+    write_mistyped(800);
+    json_t *object = expect_json("check mistyped.yaml --json " COARSE, 0);
+    assert_int_equal(count_of(object, "warnings"), 2);
+    assert_float_equal(number(object, "beyond_caps_m2"), 6 - 1.0 / 9 - 2.6, 1e-6);
+    json_decref(object);
+    write_mistyped(200);
+    outcome told = run_program("check mistyped.yaml " COARSE);
+    assert_non_null(strstr(told.out, "caps        3; beyond them 0.0000 m2"));
+    assert_non_null(strstr(told.out, "warning: caps: the one at [0.5 m, 0.5 m, 0.7 m] shuts nothing: liquid passes"));
+    assert_non_null(strstr(told.out, "warning: caps: the one at [0.5 m, 0.5 m, 70 m] shuts nothing: no liquid comes"));
+    assert_non_null(strstr(told.out, "warning: caps: the one at [0.5 m, 0.5 m, 0.4 m] shuts nothing: liquid passes"));
+    forget(&told);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_says_where_it_leaks),
         cmocka_unit_test(a_cap_shuts_it),
+        cmocka_unit_test(a_cap_that_is_pasted_shuts_far_away),
+        cmocka_unit_test(openings_that_are_not_listed_are_counted),
+        cmocka_unit_test(caps_that_shut_nothing_are_told),
         cmocka_unit_test(the_picture_is_the_same_for_any_number_of_threads),
     };
     return cmocka_run_group_tests(tests, open_with_gap, close_workplace);

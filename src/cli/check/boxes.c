@@ -15,6 +15,11 @@ double cli_box_size(cli_box box)
     return fmax(edge.x, fmax(edge.y, edge.z));
 }
 
+double cli_box_step(cli_box box)
+{
+    return 1e-6 * cli_box_size(box);
+}
+
 cli_box *cli_part_boxes(const sp_mesh *mesh)
 {
     cli_box *boxes = malloc((mesh->part_count + 1) * sizeof *boxes);

@@ -54,7 +54,9 @@ static bool examine(const cli_options *options, cli_findings *found, sp_error *e
 {
     static const char *const files[] = {"wet.png", NULL};
     if (!cli_output_ready(options, found->opened->scene, files, error) || !measure_parts(found, error) ||
-        !measure_files(found, error) || !sp_mesh_diagnose(cli_findings_setup(found)->mesh, &found->mesh, error))
+        !measure_files(found, error) ||
+        !sp_evaluator_beyond_caps(found->opened->evaluator, &found->beyond_caps, error) ||
+        !sp_mesh_diagnose(cli_findings_setup(found)->mesh, &found->mesh, error))
         return false;
     tell_boxes(found);
     if (!cli_findings_warn(found, error) || !cli_write_wet(options, found->opened, error) ||

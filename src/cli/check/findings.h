@@ -4,6 +4,7 @@
 
 #include "boxes.h"
 #include "flaws.h"
+#include "lengths.h"
 #include "repair.h"
 #include "size.h"
 #include "../cli.h"
@@ -19,7 +20,8 @@ typedef struct {
     double *part_volume; /* [part_count], m³, of its triangles; 0 where they are not closed */
     cli_box *part_box;   /* [part_count] */
     size_t size_count;
-    cli_size *sizes; /* [size_count], of each geometry file */
+    cli_size *sizes;    /* [size_count], of each geometry file */
+    double beyond_caps; /* m² */
     cli_repair repair;
     char warnings[CLI_WARNINGS][320];
     size_t warning_count;
@@ -34,6 +36,12 @@ static inline const sp_setup *cli_findings_setup(const cli_findings *found)
 static inline sp_vec3 cli_findings_told(const cli_findings *found, sp_vec3 point)
 {
     return sp_setup_outside(cli_findings_setup(found), point);
+}
+
+/* m, what matters of places in the scene. */
+static inline double cli_findings_step(const cli_findings *found)
+{
+    return cli_box_step((cli_box){found->mesh.minimum, found->mesh.maximum});
 }
 
 /* Adds what looks wrong. False when memory runs out. */

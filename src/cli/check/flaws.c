@@ -1,5 +1,8 @@
 #include "flaws.h"
 
+#include "boxes.h"
+#include "lengths.h"
+
 #include <stddef.h>
 #include <stdio.h>
 
@@ -56,12 +59,11 @@ bool cli_flaws_print(const sp_mesh_diagnosis *mesh)
             printf("\n%-24s %12s  %s\n", "flaw", "count", "the first, at m");
         any = true;
         printf("%-24s %11zu%c ", kinds[kind].name, flaw->count, flaw->more ? '+' : ' ');
-        for (size_t i = 0; i < places_of(flaw); i++)
-            printf("%s[%.5g, %.5g, %.5g]",
-                   i % A_LINE ? ", "
-                   : i        ? "\n" INDENT
-                              : "",
-                   flaw->place[i].x, flaw->place[i].y, flaw->place[i].z);
+        for (size_t i = 0; i < places_of(flaw); i++) {
+            char place[CLI_POINT];
+            cli_point_text(flaw->place[i], cli_box_step((cli_box){mesh->minimum, mesh->maximum}), "", place);
+            printf("%s[%s]", i % A_LINE ? ", " : i ? "\n" INDENT : "", place);
+        }
         printf("\n");
     }
     return any;

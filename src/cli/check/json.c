@@ -94,13 +94,14 @@ bool cli_findings_print_json(const cli_findings *found)
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
-        SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "flaws",
-        cli_flaws_json(&found->mesh), "repair", cli_repair_json(&found->repair), "sizes", sizes_json(found), "cad",
-        cli_cad_json(found->opened->scene, cli_findings_setup(found)->mesh), "parts", parts_json(found), "cavity_m",
-        cavity_json(cli_findings_setup(found)), "sweep", sweep_json(found->opened->evaluator), "openings",
-        cli_openings_json(found->opened->evaluator), "hollows", hollows_json(found), "outdoors_m2",
-        sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:o, s:f, s:f, s:f, s:I, s:f, s:I, s:o}",
+        "sprayplan", SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh",
+        mesh_json(found), "flaws", cli_flaws_json(&found->mesh), "repair", cli_repair_json(&found->repair), "sizes",
+        sizes_json(found), "cad", cli_cad_json(found->opened->scene, cli_findings_setup(found)->mesh), "parts",
+        parts_json(found), "cavity_m", cavity_json(cli_findings_setup(found)), "sweep",
+        sweep_json(found->opened->evaluator), "openings", cli_openings_json(found->opened->evaluator), "more_openings",
+        (json_int_t)sp_evaluator_more_openings(found->opened->evaluator), "hollows", hollows_json(found), "outdoors_m2",
+        sp_evaluator_outdoors(found->opened->evaluator), "beyond_caps_m2", found->beyond_caps, "clean_area_m2",
         sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
         (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
         sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",

@@ -1,5 +1,12 @@
 #include "openings.h"
 
+#include "lengths.h"
+
+#include <stdio.h>
+
+#define STEP 1e-3     /* of an opening's width: what matters of it */
+#define CAP_STEP 1e-4 /* of a cap's radius: less than what it lies off its opening */
+
 /* A lid for an opening, in the coordinates of the scene's file. */
 static sp_cap cap_of(const sp_evaluator *evaluator, const sp_opening *opening)
 {
@@ -8,22 +15,36 @@ static sp_cap cap_of(const sp_evaluator *evaluator, const sp_opening *opening)
                     .radius = opening->radius};
 }
 
+static void print_cap(sp_cap cap)
+{
+    double step = CAP_STEP * cap.radius;
+    char point[CLI_POINT], normal[CLI_POINT], radius[CLI_LENGTH];
+    cli_point_text(cap.point, step, " m", point);
+    cli_point_text(cap.normal, CAP_STEP, "", normal);
+    cli_length_text(cap.radius, step, radius);
+    printf("{point: [%s], normal: [%s], radius: %s m}\n", point, normal, radius);
+}
+
 bool cli_openings_print(const sp_evaluator *evaluator)
 {
-    size_t count;
+    size_t count, more = sp_evaluator_more_openings(evaluator);
     const sp_opening *openings = sp_evaluator_openings(evaluator, &count);
     if (count)
         printf("\n%-36s %8s %15s  %s\n", "opening at m", "width m", "share of sight", "a cap for it, in `caps:`");
     for (size_t i = 0; i < count; i++) {
         sp_cap cap = cap_of(evaluator, &openings[i]);
-        sp_vec3 p = cap.point, n = cap.normal;
-        printf("[%10.4f, %10.4f, %10.4f] %8.3g %15.2g  ", p.x, p.y, p.z, openings[i].width, openings[i].share);
+        char place[CLI_POINT], bracketed[CLI_POINT + 2], width[CLI_LENGTH];
+        cli_point_text(cap.point, STEP * openings[i].width, "", place);
+        snprintf(bracketed, sizeof bracketed, "[%s]", place);
+        cli_length_text(openings[i].width, STEP * openings[i].width, width);
+        printf("%-36s %8s %15.2g  ", bracketed, width, openings[i].share);
         if (openings[i].radius > 0)
-            printf("{point: [%.5g m, %.5g m, %.5g m], normal: [%.3f, %.3f, %.3f], radius: %.3g m}\n", p.x, p.y, p.z,
-                   n.x, n.y, n.z, cap.radius);
+            print_cap(cap);
         else
             printf("none found\n");
     }
+    if (more)
+        printf("and at least %zu more, which less is seen through\n", more);
     return count > 0;
 }
 

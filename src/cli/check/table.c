@@ -3,16 +3,27 @@
 #include "findings.h"
 #include "openings.h"
 
-static void print_cavity(const sp_setup *setup)
+static void print_cavity(const cli_findings *found)
 {
+    const sp_setup *setup = cli_findings_setup(found);
     if (setup->cavity == SP_CAVITY_NONE)
         printf("cavity      none: every triangle counts once and takes liquid from either side\n");
     else if (setup->cavity == SP_CAVITY_OUTSIDE)
         printf("cavity      outside: sides that face the space around the geometry\n");
     else {
-        sp_vec3 p = sp_setup_outside(setup, setup->cavity_point);
-        printf("cavity      sides that face the space of [%.6g m, %.6g m, %.6g m]\n", p.x, p.y, p.z);
+        char point[CLI_POINT];
+        cli_point_text(cli_findings_told(found, setup->cavity_point), cli_findings_step(found), " m", point);
+        printf("cavity      sides that face the space of [%s]\n", point);
     }
+}
+
+/* A cap that parts the vessel, where it should have shut an opening, shows here alone. */
+static void print_caps(const cli_findings *found)
+{
+    size_t count = cli_findings_setup(found)->cap_count;
+    if (count)
+        printf("caps        %zu; beyond %s %.4f m2 that liquid would reach else\n", count, count == 1 ? "it" : "them",
+               found->beyond_caps);
 }
 
 static void print_sweep(const sp_evaluator *evaluator)
@@ -28,11 +39,11 @@ static void print_boxes(const cli_findings *found)
     const sp_mesh *mesh = cli_findings_setup(found)->mesh;
     printf("\n%-8s %-24s %-36s %s\n", "geometry", "part", "from, m", "to, m");
     for (size_t i = 0; i < mesh->part_count; i++) {
-        sp_vec3 low = found->part_box[i].minimum, high = found->part_box[i].maximum;
-        char from[64];
-        snprintf(from, sizeof from, "%.6g, %.6g, %.6g", low.x, low.y, low.z);
-        printf("%-8lu %-24s %-36s %.6g, %.6g, %.6g\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
-               from, high.x, high.y, high.z);
+        const cli_box *box = &found->part_box[i];
+        char from[CLI_POINT], to[CLI_POINT];
+        cli_point_text(box->minimum, cli_box_step(*box), "", from);
+        cli_point_text(box->maximum, cli_box_step(*box), "", to);
+        printf("%-8lu %-24s %-36s %s\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name, from, to);
     }
 }
 
@@ -58,9 +69,10 @@ static void print_hollows(const cli_findings *found)
     if (count)
         printf("\n%-36s %12s  %s\n", "hollow or flat at m", "area m2", "drains");
     for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = cli_findings_told(found, hollows[i].place);
-        printf("[%10.4f, %10.4f, %10.4f] %12.4g  %s\n", p.x, p.y, p.z, hollows[i].area,
-               hollows[i].drains ? "over its rim" : "not at all");
+        char place[CLI_POINT], bracketed[CLI_POINT + 2];
+        cli_point_text(cli_findings_told(found, hollows[i].place), cli_findings_step(found), "", place);
+        snprintf(bracketed, sizeof bracketed, "[%s]", place);
+        printf("%-36s %12.4g  %s\n", bracketed, hollows[i].area, hollows[i].drains ? "over its rim" : "not at all");
     }
 }
 
@@ -79,7 +91,8 @@ void cli_findings_print(const cli_findings *found, const char *output)
            found->mesh.non_manifold_edges.count, found->mesh.flipped_edges.count, found->mesh.degenerate.count,
            found->mesh.duplicate_triangles.count);
     cli_cad_print(found->opened->scene, cli_findings_setup(found)->mesh);
-    print_cavity(setup);
+    print_cavity(found);
+    print_caps(found);
     print_sweep(found->opened->evaluator);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);

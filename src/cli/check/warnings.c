@@ -107,14 +107,27 @@ static void warn_of_openings(cli_findings *found)
         outdoors);
 }
 
+static void warn_of_caps(cli_findings *found)
+{
+    const sp_setup *setup = cli_findings_setup(found);
+    for (size_t i = 0; i < setup->cap_count; i++) {
+        sp_cap_use use = sp_evaluator_cap_use(found->opened->evaluator, i);
+        char point[CLI_POINT];
+        cli_point_text(cli_findings_told(found, setup->caps[i].point), cli_findings_step(found), " m", point);
+        if (use != SP_CAP_SHUTS)
+            warn(found, "caps: the one at [%s] shuts nothing: %s", point,
+                 use == SP_CAP_DRY ? "no liquid comes to it" : "liquid passes round its rim");
+    }
+}
+
 static void warn_of_hollows(cli_findings *found)
 {
     size_t count;
     const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
     for (size_t i = 0; i < count && !hollows[i].drains; i++) {
-        sp_vec3 p = cli_findings_told(found, hollows[i].place);
-        warn(found, "film: what runs down to [%.4g m, %.4g m, %.4g m] stands there: is a drain missing?", p.x, p.y,
-             p.z);
+        char place[CLI_POINT];
+        cli_point_text(cli_findings_told(found, hollows[i].place), cli_findings_step(found), " m", place);
+        warn(found, "film: what runs down to [%s] stands there: is a drain missing?", place);
     }
 }
 
@@ -147,6 +160,7 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     warn_of_cavity(found);
     warn_of_sides(found);
     warn_of_openings(found);
+    warn_of_caps(found);
     warn_of_hollows(found);
     return warn_of_nozzles(found, error) && (!sp_scene_has_place(found->opened->scene) ||
                                              cli_tell_idle_mounts(found->opened, warn_of_mount, found, error));
