@@ -216,6 +216,9 @@ SP_API void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
 #define SP_LIMITS_TEXT 120
 SP_API void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT]);
 
+/* Whether the proposal is more nozzles, or takes more water, than these limits allow: the nozzles to keep are. */
+SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
+
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
  * what any design on the same evaluator that it speaks of covers. The caller destroys. */
 SP_API sp_figures *sp_result_figures(const sp_result *result, sp_error *error);

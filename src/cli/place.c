@@ -94,8 +94,12 @@ static void say_what_is_missing(const sp_proposal *proposal)
 {
     const sp_coverage *coverage = proposal->coverage;
     double percent = 100 / coverage->area;
-    bool kept_reach = proposal->target_area > 0 && coverage->covered_area >= proposal->asked_area;
-    if (proposal->water_lacking > 0 && !kept_reach)
+    if (sp_exceeds_limits(proposal))
+        fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
+                        "allow\n");
+    if (proposal->target_area > 0 && coverage->covered_area >= proposal->asked_area)
+        return;
+    if (proposal->water_lacking > 0)
         fprintf(stderr,
                 "sprayplan: max_water allows no nozzle at all: the least of those that are allowed takes %.3g L/min "
                 "more\n",
@@ -104,9 +108,6 @@ static void say_what_is_missing(const sp_proposal *proposal)
         fprintf(stderr,
                 "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
                 "criteria\n");
-    else if (kept_reach)
-        fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
-                        "allow\n");
     else if (proposal->attainable_area < proposal->asked_area && is_looked_into(proposal))
         fprintf(stderr,
                 "sprayplan: %.4g %% of the surface was asked for, of which no more than %.2f %% is attainable: the "

@@ -130,8 +130,13 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
         add_error(proposed, accuracy, text);
     if (proposal->reached)
         return;
-    bool kept_reach = proposal->target_area > 0 && proposed->covered_area >= proposal->asked_area;
-    if (proposal->water_lacking > 0 && !kept_reach) {
+    if (sp_exceeds_limits(proposal))
+        sp_text_add(
+            text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
+                  "water, than was allowed.</p>\n");
+    if (proposal->target_area > 0 && proposed->covered_area >= proposal->asked_area)
+        return;
+    if (proposal->water_lacking > 0) {
         sp_text_add(text,
                     "<p class=\"warning\"><strong>No nozzle is allowed.</strong> max_water is less than any nozzle "
                     "takes, by ");
@@ -141,10 +146,6 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
         sp_text_add(text,
                     "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
                     "mounting point that takes it, covers anything by the criteria.</p>\n");
-    else if (kept_reach)
-        sp_text_add(
-            text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
-                  "water, than was allowed.</p>\n");
     else
         add_shortfall(proposed, proposal, text);
 }

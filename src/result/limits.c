@@ -5,6 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#define ROUND_OFF 1e-9 /* of the water, by which a sum of flows may lie above what is allowed */
+
+bool sp_exceeds_limits(const sp_proposal *proposal)
+{
+    return (proposal->max_nozzles > 0 && proposal->layout->count > proposal->max_nozzles) ||
+           proposal->coverage->flow > proposal->max_water * (1 + ROUND_OFF);
+}
+
 void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT])
 {
     bool number = proposal->max_nozzles > 0, water = proposal->max_water > 0 && isfinite(proposal->max_water);

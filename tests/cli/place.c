@@ -10,7 +10,12 @@ static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
     const char *at = strstr(room_yaml, "pressure: 2 bar}");
     snprintf(scene, sizeof scene, "%.*skeep: true, %s", (int)(at - room_yaml), room_yaml, at);
     write_file("kept.yaml", scene);
-    outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %' -o kept");
+    outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=100 %'");
+    assert_int_equal(result.status, 4);
+    assert_non_null(strstr(result.err, "the nozzles to keep"));
+    assert_non_null(strstr(result.err, "max_water allows no nozzle"));
+    forget(&result);
+    result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %' -o kept");
     assert_int_equal(result.status, 4);
     assert_non_null(strstr(result.err, "the nozzles to keep"));
     forget(&result);
