@@ -93,7 +93,7 @@ typedef enum {
     SP_REASON_SLOW,       /* what arrives is slower than the criterion asks */
     SP_REASON_SLANTED,    /* what arrives fast enough is more slanted than the criterion allows */
     SP_REASON_FLUX,       /* what arrives fast and steeply enough is too little: too far for the flux, within the limits
-                           * of number and water */
+                           * of number and water; without a flux these limits alone keep it away */
     SP_REASONS,
 } sp_reason;
 

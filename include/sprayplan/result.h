@@ -107,8 +107,8 @@ typedef struct {
 
 /* The name of a reason in result.json, "no_line_of_reach" for instance; NULL for attainable and unknown. */
 SP_API const char *sp_reason_key(sp_reason reason);
-/* The same for readers, "no line of reach". */
-SP_API const char *sp_reason_text(sp_reason reason);
+/* The same for readers, "no line of reach", by what was asked for. */
+SP_API const char *sp_reason_text(const sp_figures *figures, sp_reason reason);
 /* The name of a lack in result.json, "no_nozzle_in_reach" for instance; NULL for none. */
 SP_API const char *sp_lack_key(sp_lack lack);
 /* The same for readers, "no nozzle in reach". */
@@ -129,6 +129,8 @@ SP_API bool sp_figures_share_surface(const sp_figures *figures, size_t count);
  * all. */
 SP_API bool sp_same_criterion(const sp_figures *a, const sp_figures *b);
 SP_API bool sp_figures_share_criterion(const sp_figures *figures, size_t count);
+/* Whether nothing is asked of how much arrives, so that one nozzle more would do where what it brings is as asked. */
+SP_API bool sp_figures_ask_no_amount(const sp_figures *figures);
 /* What was asked for, as a clause of plain text: "at least 1 L/min/m2, at least 2 m/s"; "not told" where it is not. */
 #define SP_CRITERION_TEXT 200
 SP_API void sp_criterion_clause(const sp_figures *figures, char text[SP_CRITERION_TEXT]);

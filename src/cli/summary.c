@@ -263,7 +263,7 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
            name[0] ? ": " : "", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
            percent < 1 ? 3 : 1, percent, missing);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
-        const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
+        const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);
         if (!text || !(figures->missing_area[reason] > 0))
             continue;
         printf("  %.4f m2 %s", figures->missing_area[reason], text);
@@ -273,7 +273,7 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
     char limits[SP_LIMITS_TEXT];
     sp_limits_clause(proposal, limits);
     if (limits[0] && figures->missing_area[SP_REASON_FLUX] > 1e-6 * figures->clean_area)
-        printf("  %s: with no more than %s; more may reach more\n", sp_reason_text(SP_REASON_FLUX), limits);
+        printf("  %s: with no more than %s; more may reach more\n", sp_reason_text(figures, SP_REASON_FLUX), limits);
     printf("  at the %zu mounting points looked at; places between them, if any, may reach more\n\n",
            proposal->positions);
 }

@@ -21,7 +21,7 @@ static const sp_key unattainable_keys[] = {
     {.name = "too_slanted", .kind = SP_KEY_NUMBER, .says = "What arrives is more slanted than `incidence`, m2"},
     {.name = "too_little_flux",
      .kind = SP_KEY_NUMBER,
-     .says = "All that is allowed together does not bring `flux`, m2"},
+     .says = "All that is allowed together does not bring `flux`, or, without one, takes more nozzles or water, m2"},
     {.name = NULL}};
 static const sp_block unattainable = {"unattainable", "area out of reach by reason", NULL, unattainable_keys};
 
@@ -34,7 +34,7 @@ static const sp_key unattainable_part_keys[] = {
     {.name = "too_slanted", .kind = SP_KEY_NUMBER, .says = "What arrives is more slanted than `incidence`, m2"},
     {.name = "too_little_flux",
      .kind = SP_KEY_NUMBER,
-     .says = "All that is allowed together does not bring `flux`, m2"},
+     .says = "All that is allowed together does not bring `flux`, or, without one, takes more nozzles or water, m2"},
     {.name = NULL}};
 static const sp_block unattainable_part = {"unattainable_part", "a part with area out of reach", NULL,
                                            unattainable_part_keys};

@@ -38,17 +38,25 @@ static double missing_area(const sp_figures *figures)
     return fmax(figures->clean_area - figures->attainable_area, 0);
 }
 
-static const char *reason_text(sp_reason reason)
+static const char *reason_text(const sp_figures *figures, sp_reason reason)
 {
-    return reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
+    return reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);
+}
+
+static const char *explanation(const sp_figures *figures, sp_reason reason)
+{
+    if (reason == SP_REASON_FLUX && sp_figures_ask_no_amount(figures))
+        return "what would arrive so takes more nozzles or water than is allowed";
+    return explanations[reason];
 }
 
 /* Reasons that have area, largest first; returns how many. */
-static size_t rank_reasons(const double areas[SP_REASONS], sp_reason ranked[SP_REASONS])
+static size_t rank_reasons(const sp_figures *figures, sp_reason ranked[SP_REASONS])
 {
+    const double *areas = figures->missing_area;
     size_t count = 0;
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
-        if (!reason_text(reason) || !(areas[reason] > 0))
+        if (!reason_text(figures, reason) || !(areas[reason] > 0))
             continue;
         size_t at = count++;
         for (; at > 0 && areas[reason] > areas[ranked[at - 1]]; at--)
@@ -64,7 +72,7 @@ static void add_reason(sp_text *text, const sp_figures *figures, const area_unit
     double others = figures->missing_area[reason];
     size_t part = SP_UNKNOWN;
     sp_markup_decimals(text, unit->per_m2 * figures->missing_area[reason], unit->decimals);
-    sp_text_add(text, "&nbsp;%s %s", unit->name, reason_text(reason));
+    sp_text_add(text, "&nbsp;%s %s", unit->name, reason_text(figures, reason));
     for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SP_UNKNOWN; i++) {
         sp_text_add(text, i ? ", " : " (");
         sp_markup_escape(text, figures->missing[part].part);
@@ -115,7 +123,7 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text)
     const sp_proposal *proposal = page->result->proposal;
     area_unit unit = unit_for(missing);
     sp_reason ranked[SP_REASONS];
-    size_t count = rank_reasons(figures->missing_area, ranked);
+    size_t count = rank_reasons(figures, ranked);
     sp_text_add(text, "<p id=\"out-of-reach\" class=\"%s\"><strong>",
                 proposal && figures->attainable_area < proposal->asked_area ? "warning" : "note");
     double percent = 100 * missing / figures->clean_area;
@@ -171,20 +179,21 @@ static void add_rows(sp_text *text, const sp_figures *figures, const area_unit *
 static void add_table(sp_text *text, const sp_figures *figures)
 {
     sp_reason ranked[SP_REASONS];
-    size_t count = rank_reasons(figures->missing_area, ranked);
+    size_t count = rank_reasons(figures, ranked);
     area_unit unit = unit_for(missing_area(figures));
     sp_text_add(text, "<ul id=\"reasons\">\n");
     for (size_t i = 0; i < count; i++) {
         sp_text_add(text, "<li>");
         sp_markup_decimals(text, unit.per_m2 * figures->missing_area[ranked[i]], unit.decimals);
-        sp_text_add(text, "&nbsp;%s %s: %s.</li>\n", unit.name, reason_text(ranked[i]), explanations[ranked[i]]);
+        sp_text_add(text, "&nbsp;%s %s: %s.</li>\n", unit.name, reason_text(figures, ranked[i]),
+                    explanation(figures, ranked[i]));
     }
     sp_text_add(text,
                 "</ul>\n<div class=\"wide\"><table class=\"numbers small narrow\"><caption>Out of reach, %s</caption>\n"
                 "<thead><tr><th scope=\"col\">Part</th>",
                 unit.name);
     for (size_t i = 0; i < count; i++)
-        sp_text_add(text, "<th scope=\"col\">%s</th>", reason_text(ranked[i]));
+        sp_text_add(text, "<th scope=\"col\">%s</th>", reason_text(figures, ranked[i]));
     sp_text_add(text, "<th scope=\"col\">all</th></tr></thead>\n<tbody>\n");
     add_rows(text, figures, &unit, ranked, count);
     sp_text_add(text, "</tbody></table></div>\n");
@@ -195,6 +204,7 @@ static double add_limited(const sp_page *page, sp_text *text, const sp_figures *
 {
     const sp_proposal *proposal = sp_result_proposal(page->result, page->main);
     double limited = figures->missing_area[SP_REASON_FLUX];
+    bool no_amount = sp_figures_ask_no_amount(figures);
     char limits[SP_LIMITS_TEXT] = "";
     if (proposal)
         sp_limits_clause(proposal, limits);
@@ -204,9 +214,9 @@ static double add_limited(const sp_page *page, sp_text *text, const sp_figures *
     sp_text_add(text, " <strong>");
     sp_markup_decimals(text, unit.per_m2 * limited, unit.decimals);
     sp_text_add(text,
-                "&nbsp;%s may be out of reach for the limits alone</strong>: liquid gets there as fast and as steep as "
-                "the criterion asks, but too little of it with no more than %s. More than that may reach it.",
-                unit.name, limits);
+                "&nbsp;%s may be out of reach for the limits alone</strong>: liquid %s there as fast and as steep as "
+                "the criterion asks, but %s with no more than %s. More than that may reach it.",
+                unit.name, no_amount ? "would get" : "gets", no_amount ? "does not" : "too little of it", limits);
     return limited;
 }
 

@@ -306,19 +306,20 @@ static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
                 6e4 * remedy->flow);
 }
 
-static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *shadow, double clean_area, bool remedies)
+static void add_shadow(sp_text *text, const sp_figures *figures, size_t index)
 {
-    const double values[] = {shadow->area * 1e4, 100 * shadow->area / clean_area, shadow->centroid.x,
+    const sp_shadow_figures *shadow = &figures->shadows[index];
+    const double values[] = {shadow->area * 1e4, 100 * shadow->area / figures->clean_area, shadow->centroid.x,
                              shadow->centroid.y, shadow->centroid.z};
     const int decimals[] = {0, 2, 2, 2, 2};
     const char *reachable = shadow->reachable < 0 ? "\xe2\x80\x93" : shadow->reachable ? "yes" : "no";
-    sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", number);
+    sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", index + 1);
     add_text_cell(text, "td class=\"text\"", shadow->part);
     add_numbers(text, values, decimals, 5);
     add_lack(text, shadow);
-    const char *reason = shadow->reachable == 0 ? sp_reason_text(shadow->reason) : NULL;
+    const char *reason = shadow->reachable == 0 ? sp_reason_text(figures, shadow->reason) : NULL;
     sp_text_add(text, "<td class=\"text\">%s%s%s</td>", reachable, reason ? ": " : "", reason ? reason : "");
-    if (remedies)
+    if (any_remedy(figures))
         add_remedy(text, shadow);
     sp_text_add(text, "</tr>\n");
 }
@@ -343,7 +344,7 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
                 "Attainable</th>%s</tr></thead>\n<tbody>\n",
                 shown, any_remedy(figures) ? "<th scope=\"col\" class=\"text\">One more nozzle</th>" : "");
     for (size_t i = 0; i < shown; ++i)
-        add_shadow(text, i + 1, &figures->shadows[i], figures->clean_area, any_remedy(figures));
+        add_shadow(text, figures, i);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

@@ -28,6 +28,11 @@ bool sp_same_criterion(const sp_figures *a, const sp_figures *b)
            same(x->film, y->film);
 }
 
+bool sp_figures_ask_no_amount(const sp_figures *figures)
+{
+    return figures->criterion_known && !(figures->criterion.flux > 0);
+}
+
 bool sp_figures_share_criterion(const sp_figures *figures, size_t count)
 {
     bool share = true;

@@ -16,8 +16,10 @@ const char *sp_reason_key(sp_reason reason)
     return names[reason].key;
 }
 
-const char *sp_reason_text(sp_reason reason)
+const char *sp_reason_text(const sp_figures *figures, sp_reason reason)
 {
+    if (reason == SP_REASON_FLUX && sp_figures_ask_no_amount(figures))
+        return "beyond the limits";
     return names[reason].text;
 }
 

@@ -135,6 +135,16 @@ static void limits_are_named_where_they_bind(void **state)
     assert_non_null(strstr(result.out, "\n  too far for the flux: with no more than 1 nozzle (max_nozzles); more may "
                                        "reach more\n"));
     forget(&result);
+    write_room_with("thirsty.yaml", "{flux: 1 L/min/m2}", "{impact_speed: 1 m/s}");
+    result = run_program("place thirsty.yaml --set 'place.max_water=1 L/min' -o thirsty");
+    assert_non_null(strstr(result.out, "\n  beyond the limits: with no more than 4 nozzles (max_nozzles) and 1 L/min "
+                                       "(max_water); more may reach more\n"));
+    assert_null(strstr(result.out, "flux"));
+    forget(&result);
+    char *report = read_file("thirsty/report.html", NULL);
+    assert_non_null(strstr(report, "beyond the limits"));
+    assert_null(strstr(report, "too far for the flux"));
+    free(report);
 }
 
 /* More is asked for than what arrives so steeply allows: what is out of reach comes first, the proposal aims at the
