@@ -148,7 +148,7 @@ static void a_cap_that_is_pasted_shuts_far_away(void **state)
 {
     (void)state;
     for (double moved = 0; moved < 1e7; moved = 10 * moved + 54321) {
-        char scene[512], capped_scene[1024], low[64];
+        char scene[512], capped_scene[1024], low[128];
         write_room("far.obj", 3, moved);
         snprintf(scene, sizeof scene, "geometry: [{file: far.obj}]\ncavity: [%.1f m, %.1f m, %.1f m]\n", moved + 0.4,
                  moved + 0.6, moved + 0.5);
@@ -170,6 +170,13 @@ static void a_cap_that_is_pasted_shuts_far_away(void **state)
         assert_int_equal(count_of(shut, "warnings"), 0);
         assert_float_equal(number(shut, "clean_area_m2"), 6 - 1.0 / 9, 1e-6);
         json_decref(shut);
+        snprintf(scene, sizeof scene, "geometry: [{file: far.obj}]\ncavity: [%.1f m, %.1f m, %.1f m]\n", moved + 0.4,
+                 moved + 0.6, moved);
+        write_file("far.yaml", scene);
+        outcome refused = run_program("check far.yaml");
+        snprintf(low, sizeof low, "the point (%.12g m, %.12g m, %.12g m);", moved + 0.4, moved + 0.6, moved);
+        assert_non_null(strstr(refused.err, low));
+        forget(&refused);
     }
 }
 

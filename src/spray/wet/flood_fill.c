@@ -228,9 +228,11 @@ static bool join_seen(sp_flood *flood, sp_error *error)
         join_in_view(flood);
         return true;
     }
-    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "cavity: %s the point (%g m, %g m, %g m); expected a point of the space where the liquid flies",
-                   touches ? "a surface goes through" : "no surface is seen from", point.x, point.y, point.z);
+    sp_vec3 told = sp_setup_outside(flood->setup, point);
+    return sp_fail(
+        error, SP_ERROR_INPUT, NULL, 0, 0,
+        "cavity: %s the point (%.12g m, %.12g m, %.12g m); expected a point of the space where the liquid flies",
+        touches ? "a surface goes through" : "no surface is seen from", told.x, told.y, told.z);
 }
 
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,

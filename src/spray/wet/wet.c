@@ -129,15 +129,17 @@ static bool has_open_shell(const sp_wet *wet, const sp_mesh *mesh, uint32_t part
     return false;
 }
 
-static bool fail_in_material(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point, sp_error *error)
+static bool fail_in_material(const sp_wet *wet, const sp_setup *setup, sp_error *error)
 {
+    const sp_mesh *mesh = setup->mesh;
+    sp_vec3 point = setup->cavity_point, told = sp_setup_outside(setup, point);
     uint32_t part = part_around(wet, mesh, point);
     bool open = part != SP_NONE && has_open_shell(wet, mesh, part);
     return sp_fail(
         error, SP_ERROR_INPUT, NULL, 0, 0,
-        "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\"%s; expected a point of the "
+        "cavity: the point (%.12g m, %.12g m, %.12g m) lies in the material of part \"%s\"%s; expected a point of the "
         "space where the liquid flies (a room drawn as one shell has its normals inwards)",
-        point.x, point.y, point.z, part == SP_NONE ? "" : mesh->parts[part].name,
+        told.x, told.y, told.z, part == SP_NONE ? "" : mesh->parts[part].name,
         open ? ", or in a hollow of it that cannot be told, since it has open edges" : "");
 }
 
@@ -154,8 +156,7 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
     turn_shells(wet, setup, tracer, contact);
     if (setup->cavity != SP_CAVITY_POINT)
         return true;
-    sp_vec3 point = setup->cavity_point;
-    return !sp_wet_is_material(wet, point) || fail_in_material(wet, setup->mesh, point, error);
+    return !sp_wet_is_material(wet, setup->cavity_point) || fail_in_material(wet, setup, error);
 }
 
 static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
