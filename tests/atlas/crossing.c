@@ -2,7 +2,7 @@
 #include "shapes.h"
 
 #include "atlas/charts/crossing.h"
-#include "atlas/charts/predicate.h"
+#include "mesh/predicate.h"
 
 /* A closed chain through `points`. */
 static sp_segment *chain(double (*points)[2], size_t count)

@@ -2,7 +2,7 @@
  * grid of its own. Within a cell each pair is tested with exact orientations. */
 #include "atlas/charts/crossing.h"
 
-#include "atlas/charts/predicate.h"
+#include "mesh/predicate.h"
 
 #include <math.h>
 #include <stdlib.h>

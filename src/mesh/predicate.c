@@ -1,6 +1,6 @@
 /* A filtered determinant, then its exact expansion: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and
  * Fast Robust Geometric Predicates" (1997). */
-#include "atlas/charts/predicate.h"
+#include "mesh/predicate.h"
 
 #include <math.h>
 
