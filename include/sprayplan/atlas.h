@@ -116,7 +116,8 @@ SP_API sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, c
  * without a pixel between them. */
 SP_API sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error);
 
-/* How an OBJ file lays its triangles flat, polygons as fans and in the file's order. Nothing of it has been checked. */
+/* How an OBJ file lays its triangles flat, polygons cut as in the mesh and in the file's order. Nothing of it has been
+ * checked. */
 typedef struct {
     char *path; /* as it was read */
     size_t triangle_count;

@@ -25,7 +25,7 @@ typedef struct {
 
 /* A welded triangle mesh. Vertices with equal coordinates are one; degenerate triangles (two equal corners, or no area)
  * are kept out of `triangles` but remain in `source_triangles`, which holds what the file held, in its order, polygons
- * as fans. Everything is owned by the mesh and read-only once made. */
+ * cut into two triangles fewer than they have corners. Everything is owned by the mesh and read-only once made. */
 typedef struct {
     size_t vertex_count;
     sp_vec3 *vertices; /* [vertex_count], m */
@@ -38,6 +38,7 @@ typedef struct {
     uint32_t *source_part;           /* [source_triangle_count] */
     size_t part_count;
     sp_part *parts; /* [part_count] */
+    size_t tangled; /* polygons of the file whose outline crosses itself: cut as a fan from their first corner */
 } sp_mesh;
 
 #define SP_PLACES 10
@@ -68,11 +69,12 @@ typedef struct {
 
 /* Reads an OBJ, STL or PLY file (told by its extension in any case; text or binary told by its content), or a CAD file
  * as sp_cad_load does by default. Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any
- * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Returns NULL with file and
- * line for whatever does not follow the format, for indices out of range, numbers that are not finite or beyond 1e30 m,
- * and for files without a triangle of some area. Holds at no time more than ten times the file's size and 64 MiB (CAD
- * files have limits of their own): polygons of so few bytes a corner that their mesh would are refused. Names of parts
- * are UTF-8; what is not is taken for Latin-1. The caller destroys. */
+ * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Polygons are cut into
+ * triangles within their outline, seen along Newell's normal: a fan from the first corner where that is right. Returns
+ * NULL with file and line for whatever does not follow the format, for indices out of range, numbers that are not
+ * finite or beyond 1e30 m, and for files without a triangle of some area. Holds at no time more than ten times the
+ * file's size and 64 MiB (CAD files have limits of their own): polygons of so few bytes a corner that their mesh would
+ * are refused. Names of parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 SP_API sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 /* The same of what is left of a stream, which may be a pipe and stays open; `name` stands for the path in messages.
  * Whether it is PLY, STL or OBJ is told by what it begins with; CAD files are refused. */

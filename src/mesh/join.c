@@ -57,6 +57,8 @@ static sp_mesh *move(const sp_mesh *mesh, const sp_transform *transform, size_t 
     } else {
         sp_fail_memory(error);
     }
+    if (moved)
+        moved->tangled = mesh->tangled;
     for (size_t i = 0; moved && i < mesh->part_count; i++)
         moved->parts[i].volume = mesh->parts[i].volume * transform->scale * transform->scale * transform->scale;
     free(vertices);
@@ -93,6 +95,7 @@ static void append(sp_mesh *joined, sp_mesh *mesh, size_t sources, size_t parts,
         mesh->parts[i].name = NULL;
     }
     joined->vertex_count += mesh->vertex_count;
+    joined->tangled += mesh->tangled;
     joined->triangle_count += mesh->triangle_count;
 }
 

@@ -198,6 +198,7 @@ static void take(sp_mesh *mesh, sp_soup *soup)
     mesh->source_triangles = soup->triangles;
     mesh->source_part = soup->part;
     mesh->source_triangle_count = soup->triangle_count;
+    mesh->tangled = soup->tangled;
     soup->vertices = NULL;
     soup->triangles = NULL;
     soup->part = NULL;

@@ -62,8 +62,8 @@ static bool read_vertex(reader *r, const sp_token *keyword)
     int count = read_numbers(r, numbers, 3, 7, "v x y z, with a weight or a colour at most");
     if (count < 0)
         return false;
-    sp_vec3 p = sp_scale(sp_v(numbers[0], numbers[1], numbers[2]), r->unit);
-    if (count == 5 || !sp_coordinates_allowed(p))
+    sp_vec3 p = sp_v(numbers[0], numbers[1], numbers[2]);
+    if (count == 5 || !sp_coordinates_allowed(sp_scale(p, r->unit)))
         return sp_fail(r->error, SP_ERROR_INPUT, r->scanner.path, keyword->line, keyword->column,
                        count == 5 ? "found five numbers, expected x y z, with a weight or a colour"
                                   : "found a coordinate beyond 1e30 m, expected less");
@@ -118,15 +118,15 @@ static bool read_corner(reader *r, const sp_token *corner, uint32_t *vertex, uns
     return at == end || sp_token_unexpected(&r->scanner, corner, "v, v/vt, v//vn or v/vt/vn", r->error);
 }
 
-static bool add_triangle(reader *r, uint32_t a, uint32_t b, uint32_t c)
+static bool add_corner(reader *r, uint32_t vertex)
 {
-    return sp_soup_add_triangle(r->soup, a, b, c, r->part, r->error) &&
+    return sp_soup_add_corner(r->soup, vertex, r->error) &&
            sp_soup_check_size(r->soup, r->scanner.path, (size_t)(r->scanner.at - r->start), r->scanner.line, r->error);
 }
 
 static bool read_face(reader *r)
 {
-    uint32_t first = 0, previous = 0, vertex;
+    uint32_t vertex;
     unsigned first_form = 0, form;
     sp_token token;
     size_t corners = 0;
@@ -135,17 +135,14 @@ static bool read_face(reader *r)
     for (; sp_scan_token(&r->scanner, &token); corners++) {
         if (!read_corner(r, &token, &vertex, &form))
             return false;
-        if (corners == 0) {
-            first = vertex;
-            first_form = form;
-        }
+        first_form = corners ? first_form : form;
         if (form != first_form)
             return sp_token_unexpected(&r->scanner, &token, "all corners of a face in the same form", r->error);
-        if (corners >= 2 && !add_triangle(r, first, previous, vertex))
+        if (!add_corner(r, vertex))
             return false;
-        previous = vertex;
     }
-    return corners >= 3 || sp_scanner_ended(&r->scanner, "three corners or more", r->error);
+    return corners >= 3 ? sp_soup_add_polygon(r->soup, r->part, r->error)
+                        : sp_scanner_ended(&r->scanner, "three corners or more", r->error);
 }
 
 static bool read_group(reader *r)
@@ -196,5 +193,7 @@ bool sp_obj_read(const char *path, const char *text, size_t size, double unit, s
             break;
     }
     free(r.group);
+    for (size_t i = 0; i < soup->vertex_count; i++) /* polygons have been cut as sp_texture_read does it */
+        soup->vertices[i] = sp_scale(soup->vertices[i], unit);
     return good;
 }

@@ -280,23 +280,16 @@ static bool check_size(const reader *r)
                               r->order == TEXT ? r->scanner.line : 0, r->error);
 }
 
-/* Corner `i` of a face, as a fan of triangles from its first. */
-static bool add_corner(reader *r, const element *own, uint64_t index, uint64_t i, double number, uint32_t corners[3])
+static bool add_corner(reader *r, const element *own, uint64_t index, double number)
 {
     if (!(number >= 0 && number < (double)r->vertices && number == floor(number)))
         return fail_in(r, own, index, "a corner that no vertex has, expected numbers of vertices, from 0");
-    corners[i < 2 ? i : 2] = (uint32_t)number;
-    if (i < 2)
-        return true;
-    bool done = sp_soup_add_triangle(r->soup, corners[0], corners[1], corners[2], r->part, r->error);
-    corners[1] = corners[2];
-    return done && check_size(r);
+    return sp_soup_add_corner(r->soup, (uint32_t)number, r->error) && check_size(r);
 }
 
 static bool read_list(reader *r, const element *own, uint64_t index, const property *list)
 {
     double count, number;
-    uint32_t corners[3];
     if (!read_value(r, list->count, &count))
         return false;
     if (!(count >= 0 && count < (double)SP_NONE && count == floor(count)))
@@ -305,9 +298,9 @@ static bool read_list(reader *r, const element *own, uint64_t index, const prope
         return fail_in(r, own, index, "fewer than three corners, expected three or more");
     for (uint64_t i = 0; i < (uint64_t)count; i++)
         if (!read_value(r, list->type, list->use == CORNERS ? &number : NULL) ||
-            (list->use == CORNERS && !add_corner(r, own, index, i, number, corners)))
+            (list->use == CORNERS && !add_corner(r, own, index, number)))
             return false;
-    return true;
+    return list->use != CORNERS || sp_soup_add_polygon(r->soup, r->part, r->error);
 }
 
 static bool add_vertex(reader *r, const element *own, uint64_t index, const double coordinates[3])

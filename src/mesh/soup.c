@@ -1,5 +1,7 @@
 #include "mesh/soup.h"
 
+#include "mesh/polygon.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +15,7 @@ void sp_soup_clear(sp_soup *soup)
     free(soup->welded.slots);
     free(soup->triangles);
     free(soup->part);
+    free(soup->corners);
     *soup = (sp_soup){0};
 }
 
@@ -92,6 +95,32 @@ bool sp_soup_add_triangle(sp_soup *soup, uint32_t a, uint32_t b, uint32_t c, uin
     return true;
 }
 
+bool sp_soup_add_corner(sp_soup *soup, uint32_t vertex, sp_error *error)
+{
+    void *corners = soup->corners;
+    bool grown = grow(&corners, &soup->corner_room, soup->corner_count, sizeof *soup->corners, error);
+    soup->corners = corners;
+    if (grown)
+        soup->corners[soup->corner_count++] = vertex;
+    return grown;
+}
+
+bool sp_soup_add_polygon(sp_soup *soup, uint32_t part, sp_error *error)
+{
+    sp_cut cut;
+    const uint32_t *corners = soup->corners;
+    bool good = sp_polygon_cut(soup->vertices, corners, soup->corner_count, &cut, error);
+    for (size_t i = 0; good && i + 2 < soup->corner_count; i++) {
+        uint32_t own[3];
+        sp_cut_triangle(&cut, i, own);
+        good = sp_soup_add_triangle(soup, corners[own[0]], corners[own[1]], corners[own[2]], part, error);
+    }
+    soup->tangled += cut.tangled;
+    soup->corner_count = 0;
+    sp_cut_free(&cut);
+    return good;
+}
+
 /* Where the name is, or where it would go. */
 static size_t find_slot(const sp_soup *soup, const char *name)
 {
@@ -148,13 +177,15 @@ uint32_t sp_soup_part(sp_soup *soup, const char *name, sp_error *error)
 bool sp_soup_check_size(const sp_soup *soup, const char *path, size_t length, int line, sp_error *error)
 {
     /* What each takes at its worst, when an array moves to a larger one: 5/2 of its items, and with a part its name's
-     * block and its entry in the table and the old one. The mesh takes less. */
-    enum { VERTEX = 60, TRIANGLE = 40, PART = 80, FREE = 48 << 20 };
-    uint64_t bytes = VERTEX * (uint64_t)soup->vertex_count + TRIANGLE * (uint64_t)soup->triangle_count +
-                     PART * (uint64_t)soup->part_count + soup->name_length;
+     * block and its entry in the table and the old one. The mesh takes less. Of a corner that is no triangle's yet also
+     * what cutting takes. */
+    enum { VERTEX = 60, TRIANGLE = 40, CORNER = 100, PART = 80, FREE = 48 << 20 };
+    uint64_t bytes = CORNER * (uint64_t)soup->corner_count + VERTEX * (uint64_t)soup->vertex_count +
+                     TRIANGLE * (uint64_t)soup->triangle_count + PART * (uint64_t)soup->part_count + soup->name_length;
     return bytes <= 9 * (uint64_t)length + FREE ||
            sp_fail(error, SP_ERROR_INPUT, path, line, 0,
                    "found %zu triangles, %zu vertices and %zu parts within %zu bytes, expected a mesh of at most ten "
                    "times its file's size",
-                   soup->triangle_count, soup->vertex_count, soup->part_count, length);
+                   soup->triangle_count + (soup->corner_count > 2 ? soup->corner_count - 2 : 0), soup->vertex_count,
+                   soup->part_count, length);
 }

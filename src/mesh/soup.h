@@ -11,6 +11,9 @@ typedef struct {
     size_t triangle_count, triangle_room;
     uint32_t (*triangles)[3];
     uint32_t *part;
+    size_t corner_count, corner_room;
+    uint32_t *corners; /* of the polygon that is being read */
+    size_t tangled;    /* polygons, as sp_cut has it */
     size_t part_count, part_room;
     char **part_names;
     size_t name_length;   /* of all names together */
@@ -27,6 +30,9 @@ bool sp_soup_add_vertex(sp_soup *soup, sp_vec3 vertex, sp_error *error);
 /* Adds a vertex unless there is an equal one; its number. A soup's vertices are added either all so or all as above. */
 bool sp_soup_weld_vertex(sp_soup *soup, sp_vec3 vertex, uint32_t *number, sp_error *error);
 bool sp_soup_add_triangle(sp_soup *soup, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error);
+/* One more corner of a polygon: a vertex of the soup; then the whole of three or more, as triangles. */
+bool sp_soup_add_corner(sp_soup *soup, uint32_t vertex, sp_error *error);
+bool sp_soup_add_polygon(sp_soup *soup, uint32_t part, sp_error *error);
 /* The number of the part of that name, made where there is none yet; SP_NONE on error. */
 uint32_t sp_soup_part(sp_soup *soup, const char *name, sp_error *error);
 /* Whether all of this, found in the first `length` bytes of a file, leads to a mesh at no time larger than nine times

@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 typedef struct {
-    size_t triangle_count; /* polygons as fans, in the file's order */
+    size_t triangle_count; /* polygons as sp_polygon_cut has them, in the file's order */
     double (*uv)[3][2];    /* [triangle_count], NAN at a corner without */
     uint32_t *page;        /* [triangle_count], N of the last `usemtl page_N`, 0 before any */
     int *line;             /* [triangle_count], of the face */

@@ -6,9 +6,10 @@
 static json_t *mesh_json(const cli_findings *found)
 {
     const sp_mesh_diagnosis *m = &found->mesh;
-    return json_pack("{s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:[fff], s:[fff]}", "triangles",
+    return json_pack("{s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:[fff], s:[fff]}", "triangles",
                      (json_int_t)cli_findings_setup(found)->mesh->triangle_count, "vertices",
-                     (json_int_t)cli_findings_setup(found)->mesh->vertex_count, "area_m2", m->area, "degenerate",
+                     (json_int_t)cli_findings_setup(found)->mesh->vertex_count, "area_m2", m->area, "tangled_polygons",
+                     (json_int_t)cli_findings_setup(found)->mesh->tangled, "degenerate",
                      (json_int_t)m->degenerate.count, "open_edges", (json_int_t)m->open_edges.count,
                      "non_manifold_edges", (json_int_t)m->non_manifold_edges.count, "flipped_edges",
                      (json_int_t)m->flipped_edges.count, "duplicate_triangles",

@@ -24,6 +24,12 @@ static void warn_of_mesh(cli_findings *found)
              "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
              "once; name a point of the space where the liquid flies",
              mesh->closed_shells);
+    if (cli_findings_setup(found)->mesh->tangled)
+        warn(
+            found,
+            "geometry: %zu polygons cross their own outline, or nearly so: cut as fans from their first corners, which "
+            "may cover what they do not",
+            cli_findings_setup(found)->mesh->tangled);
     if (mesh->degenerate.count)
         warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate.count);
     if (mesh->non_manifold_edges.count)
