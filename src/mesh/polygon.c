@@ -93,7 +93,7 @@ static void lay_flat(const polygon *p, sp_vec3 area, double (*flat)[2])
     }
 }
 
-static bool cut_inside(const polygon *p, sp_vec3 area, sp_cut *cut, sp_error *error)
+static bool cut_inside(const polygon *p, sp_vec3 area, sp_facets *cut, sp_error *error)
 {
     double(*flat)[2] = malloc(p->count * sizeof *flat);
     bool good = flat || sp_fail_memory(error);
@@ -116,9 +116,9 @@ static bool cut_inside(const polygon *p, sp_vec3 area, sp_cut *cut, sp_error *er
     return good;
 }
 
-bool sp_polygon_cut(const sp_vec3 *vertices, const uint32_t *corners, size_t count, sp_cut *cut, sp_error *error)
+bool sp_polygon_cut(const sp_vec3 *vertices, const uint32_t *corners, size_t count, sp_facets *cut, sp_error *error)
 {
-    *cut = (sp_cut){0};
+    *cut = (sp_facets){0};
     if (count == 3)
         return true;
     polygon p = {vertices, corners, count, find_scale(vertices, corners, count)};
@@ -130,8 +130,8 @@ bool sp_polygon_cut(const sp_vec3 *vertices, const uint32_t *corners, size_t cou
     return cut->tangled || is_fan(&p, area) || cut_inside(&p, area, cut, error);
 }
 
-void sp_cut_free(sp_cut *cut)
+void sp_facets_free(sp_facets *cut)
 {
     free(cut->triangles);
-    *cut = (sp_cut){0};
+    *cut = (sp_facets){0};
 }

@@ -107,17 +107,17 @@ bool sp_soup_add_corner(sp_soup *soup, uint32_t vertex, sp_error *error)
 
 bool sp_soup_add_polygon(sp_soup *soup, uint32_t part, sp_error *error)
 {
-    sp_cut cut;
+    sp_facets cut;
     const uint32_t *corners = soup->corners;
     bool good = sp_polygon_cut(soup->vertices, corners, soup->corner_count, &cut, error);
     for (size_t i = 0; good && i + 2 < soup->corner_count; i++) {
         uint32_t own[3];
-        sp_cut_triangle(&cut, i, own);
+        sp_facets_triangle(&cut, i, own);
         good = sp_soup_add_triangle(soup, corners[own[0]], corners[own[1]], corners[own[2]], part, error);
     }
     soup->tangled += cut.tangled;
     soup->corner_count = 0;
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
     return good;
 }
 

@@ -13,7 +13,7 @@ typedef struct {
     uint32_t *part;
     size_t corner_count, corner_room;
     uint32_t *corners; /* of the polygon that is being read */
-    size_t tangled;    /* polygons, as sp_cut has it */
+    size_t tangled;    /* polygons, as sp_facets has it */
     size_t part_count, part_room;
     char **part_names;
     size_t name_length;   /* of all names together */

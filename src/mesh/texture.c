@@ -125,7 +125,7 @@ static bool read_face(reader *r, int line)
 {
     sp_texture *t = r->texture;
     sp_token token;
-    sp_cut cut;
+    sp_facets cut;
     size_t corners = 0;
     while (sp_scan_token(&r->scanner, &token))
         read_corner(r, &token, corners++);
@@ -135,13 +135,13 @@ static bool read_face(reader *r, int line)
         return false;
     for (size_t i = 0; i + 2 < corners; i++) {
         uint32_t own[3];
-        sp_cut_triangle(&cut, i, own);
+        sp_facets_triangle(&cut, i, own);
         for (int k = 0; k < 3; k++)
             memcpy(t->uv[t->triangle_count][k], r->corner_uv[own[k]], sizeof *r->corner_uv);
         t->page[t->triangle_count] = r->page;
         t->line[t->triangle_count++] = line;
     }
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
     return true;
 }
 

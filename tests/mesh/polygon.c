@@ -63,7 +63,7 @@ static void place(int plane, uint32_t first, bool backwards)
 /* Cuts what was placed into triangles that face the outline's side and together have its area; how many have none. */
 static size_t expect_cut(int plane, bool backwards)
 {
-    sp_cut cut;
+    sp_facets cut;
     size_t flat = 0;
     double area = 0, expected = shoelace();
     sp_vec3 normal = sp_cross(axis_of(plane, 0), axis_of(plane, 1));
@@ -71,7 +71,7 @@ static size_t expect_cut(int plane, bool backwards)
     assert_false(cut.tangled);
     for (size_t i = 0; i + 2 < drawn.count; i++) {
         uint32_t t[3];
-        sp_cut_triangle(&cut, i, t);
+        sp_facets_triangle(&cut, i, t);
         assert_true(t[0] < drawn.count && t[1] < drawn.count && t[2] < drawn.count);
         sp_vec3 a = points[corners[t[0]]];
         sp_vec3 own = sp_cross(sp_sub(points[corners[t[1]]], a), sp_sub(points[corners[t[2]]], a));
@@ -81,7 +81,7 @@ static size_t expect_cut(int plane, bool backwards)
         area += 0.5 * sp_length(own);
     }
     assert_true(fabs(area - expected) <= 1e-11 * expected);
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
     return flat;
 }
 
@@ -218,12 +218,12 @@ static void convex_ones_are_fans(void **state)
                 for (uint32_t i = 0; digits && i < drawn.count; i++)
                     points[i] = sp_v(round(points[i].x * 1e7) / 1e7, round(points[i].y * 1e7) / 1e7,
                                      round(points[i].z * 1e7) / 1e7);
-                sp_cut cut;
+                sp_facets cut;
                 assert_true(sp_polygon_cut(points, corners, drawn.count, &cut, NULL));
                 assert_null(cut.triangles);
                 assert_false(cut.tangled);
                 uint32_t t[3];
-                sp_cut_triangle(&cut, 0, t);
+                sp_facets_triangle(&cut, 0, t);
                 assert_true(t[0] == 0 && t[1] == 1 && t[2] == 2);
             }
 }
@@ -232,7 +232,7 @@ static void expect_fan(bool tangled)
 {
     for (int plane = 0; plane < 4; plane++)
         for (uint32_t first = 0; first < drawn.count; first++) {
-            sp_cut cut;
+            sp_facets cut;
             place(plane, first, first % 2);
             assert_true(sp_polygon_cut(points, corners, drawn.count, &cut, NULL));
             assert_null(cut.triangles);
@@ -267,7 +267,7 @@ static void scale_is_no_matter(void **state)
     (void)state;
     DRAW({0, 0}, {1, 0}, {1, 1}, {0.65, 1}, {0.65, 0.3}, {0.35, 0.3}, {0.35, 1}, {0, 1});
     place(3, 3, false);
-    sp_cut cut, other;
+    sp_facets cut, other;
     assert_true(sp_polygon_cut(points, corners, drawn.count, &cut, NULL));
     assert_non_null(cut.triangles);
     for (int power = -900; power <= 900; power += 300) {
@@ -276,15 +276,15 @@ static void scale_is_no_matter(void **state)
             points[i] = sp_scale(points[i], ldexp(1, power));
         assert_true(sp_polygon_cut(points, corners, drawn.count, &other, NULL));
         assert_memory_equal(cut.triangles, other.triangles, (drawn.count - 2) * sizeof *cut.triangles);
-        sp_cut_free(&other);
+        sp_facets_free(&other);
     }
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
     place(3, 3, false);
     for (uint32_t i = 0; i < drawn.count; i++)
         points[i] = sp_add(points[i], sp_v(1048576, -2097152, 524288));
     assert_true(sp_polygon_cut(points, corners, drawn.count, &cut, NULL));
     assert_non_null(cut.triangles);
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
 }
 
 /* A comb, a star, a spiral, and a tangle that is larger than what is searched for crossings. */
@@ -324,10 +324,10 @@ static void very_long_ones_come_to_an_end(void **state)
     expect_cut(0, false);
     for (uint32_t i = 0; i < MOST; i++)
         points[i] = sp_v(any(), any() + 1e-4 * i, 0);
-    sp_cut cut;
+    sp_facets cut;
     assert_true(sp_polygon_cut(points, corners, MOST, &cut, NULL));
     assert_true(cut.tangled);
-    sp_cut_free(&cut);
+    sp_facets_free(&cut);
 }
 
 #define LID                                                                                                            \
