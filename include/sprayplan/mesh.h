@@ -112,6 +112,19 @@ SP_API sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *t
 /* Returns false only when memory runs out. */
 SP_API bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error);
 
+/* Triangles that one part lost to another, in which they lay too. */
+typedef struct {
+    uint32_t part, to; /* parts of the mesh */
+    size_t triangles;
+    double area; /* m² */
+} sp_yield;
+
+/* A triangle that was put in. */
+typedef struct {
+    sp_vec3 place; /* its middle, m */
+    double area;   /* m² */
+} sp_filling;
+
 /* What mending did, and what was wrong before and after it. */
 typedef struct {
     size_t dropped; /* degenerate triangles */
@@ -120,17 +133,25 @@ typedef struct {
     size_t split;   /* triangles split at corners of others that lay on their open edges */
     size_t turned;  /* triangles turned over, as most of what hangs together by edges is turned */
     size_t filled;  /* triangles put where one was missing between three others or two */
+    size_t yield_count;
+    sp_yield yields[SP_PLACES]; /* [yield_count], in the order of their first triangles; of copies in one part none */
+    size_t other_yields;        /* triangles that went between further pairs of parts */
+    double filled_area;         /* m² */
+    sp_filling fillings[SP_PLACES]; /* [min(filled, SP_PLACES)], the largest, in order */
     sp_mesh_diagnosis before, after;
 } sp_repair_account;
 
-/* A mended copy, which the caller destroys; NULL only when memory runs out. Corners move by no more than
+/* A mended copy, which the caller destroys; NULL only when memory runs out. `preferred` [part_count]: of copies in
+ * different parts the one that stays goes to a part that is preferred, where one of them is; else, or where it is NULL,
+ * the first stays. Corners move by no more than
  * before.crack, and only where they lie on open edges; no surface is taken away but what is there twice. Nothing that
  * would leave more of any flaw is done, with two exceptions: the rim of a sheet that was there twice is open once it is
  * there once, and a shell that was closed or made to agree may face inwards, as most of it did. Bodies that touch,
- * sheets drawn with both sides, openings wider than one triangle, crossings, bits and which side a closed shell faces
+ * sheets drawn with both sides, openings wider than one triangle or into whose plane no neighbour goes on (one within
+ * 30 degrees, or two within 60), as the ends of pipes, crossings, bits and which side a closed shell faces
  * stay as they are. A sound mesh comes out with the same triangles, and so does what was mended. Parts keep their
  * numbers, also where they have lost all triangles. */
-SP_API sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error);
+SP_API sp_mesh *sp_mesh_repair(const sp_mesh *mesh, const bool *preferred, sp_repair_account *account, sp_error *error);
 
 /* Writes the triangles with some area, in m, and the vertices that they use, as OBJ text with a group for each part. It
  * reads back to the same last bit; names lose what OBJ has no way to write: a `#` that begins a word, a backslash at

@@ -81,9 +81,11 @@ const cli_option cli_options_known[] = {
      "Write a mended copy of the geometry, in m and placed as in the scene; of several files OUT-0.obj, OUT-1.obj and "
      "so on. No file that is read is replaced. Name it in the scene instead of the file that it is of, without unit, "
      "scale, rotate, translate, chord and angle. Mended: cracks of up to 1e-4 of the diagonal, edges cut more finely "
-     "on one side, triangles that face the other side than most around them, single ones that are missing, there twice "
-     "or "
-     "without area. Left: wider openings, crossings, loose bits, which side a closed shell faces."},
+     "on one side, triangles that face the other side than most around them, are there twice or have no area, and "
+     "single ones that are missing from a surface that goes on beside them: an opening of that shape, as in a screen, "
+     "is shut as well, so what was put in is told with the largest places. Of copies in different parts a part to be "
+     "cleaned keeps its own, else the first does; which part lost what is told. Left: wider openings, ends of pipes, "
+     "crossings, loose bits, which side a closed shell faces."},
     {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_PLACE),
      "End after S seconds with the best layout so far. What is cut short or left out is named."},
     {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_STUDY), "End after S seconds with what there is."},

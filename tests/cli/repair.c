@@ -71,6 +71,58 @@ static void the_table_says_so(void **state)
     forget(&result);
 }
 
+/* Of the floor there is a copy in another part, before it or behind it: what is to be cleaned keeps it. */
+static void parts_that_lose_are_named(void **state)
+{
+    (void)state;
+    static const char vertices[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+    static const char room[] = "g room\nf 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    static const char frame[] = "g frame\nf 1 2 3 4\n";
+    for (int order = 0; order < 2; order++) {
+        char text[600];
+        snprintf(text, sizeof text, "%s%s%s", vertices, order ? frame : room, order ? room : frame);
+        write_file("framed.obj", text);
+        write_file("framed.yaml", "geometry:\n  - {file: framed.obj, clean_parts: [room]}\n");
+        json_t *check = expect_json("check framed.yaml --repair unframed.obj --json", 0);
+        json_t *file = json_array_get(json_object_get(check, "repair"), 0);
+        json_t *lost = json_object_get(file, "lost_parts"), *copies = json_object_get(file, "copies_of_other_parts");
+        assert_int_equal(json_array_size(lost), 1);
+        assert_string_equal(json_string_value(json_array_get(lost, 0)), "frame");
+        assert_int_equal(json_array_size(copies), 1);
+        assert_string_equal(json_string_value(json_object_get(json_array_get(copies, 0), "to")), "room");
+        assert_true(fabs(number(json_array_get(copies, 0), "area_m2") - 1) < 1e-15);
+        assert_true(fabs(at(file, "clean_parts_area_m2", 0) - 6) < 1e-12);
+        assert_true(fabs(at(file, "clean_parts_area_m2", 1) - 6) < 1e-12);
+        json_decref(check);
+        outcome result = run_program("check framed.yaml --repair unframed.obj");
+        assert_non_null(strstr(result.out, "copies: 1 m2 of part \"frame\" taken out in favour of part \"room\"\n"
+                                           "part \"frame\" is gone: nothing is left of it\n"));
+        forget(&result);
+        char *written = read_file("unframed.obj", NULL);
+        assert_null(strstr(written, "frame"));
+        free(written);
+    }
+}
+
+static void what_is_put_in_is_told(void **state)
+{
+    (void)state;
+    write_file("torn.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                           "f 1 2 3\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    write_file("torn.yaml", "geometry:\n  - {file: torn.obj}\n");
+    json_t *check = expect_json("check torn.yaml --repair whole.obj --json", 0);
+    json_t *file = json_array_get(json_object_get(check, "repair"), 0);
+    json_t *largest = json_array_get(json_object_get(file, "largest_filled"), 0);
+    assert_true(fabs(number(file, "filled_area_m2") - 0.5) < 1e-15);
+    assert_true(fabs(number(largest, "area_m2") - 0.5) < 1e-15);
+    assert_true(fabs(at(largest, "place_m", 0) - 1.0 / 3) < 1e-15);
+    json_decref(check);
+    outcome result = run_program("check torn.yaml --repair whole.obj");
+    assert_non_null(strstr(result.out, "\nput in: 0.5 m2"));
+    assert_non_null(strstr(result.out, "the largest: 0.5 m2 at [0.33333, 0.66667, 0]\n"));
+    forget(&result);
+}
+
 /* One copy of each, in its file's place; another folder is made. */
 static void several_files_are_mended_each(void **state)
 {
@@ -195,6 +247,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_copy_is_mended),
         cmocka_unit_test(the_table_says_so),
+        cmocka_unit_test(parts_that_lose_are_named),
+        cmocka_unit_test(what_is_put_in_is_told),
         cmocka_unit_test(several_files_are_mended_each),
         cmocka_unit_test(no_input_is_replaced),
         cmocka_unit_test(wrong_names_are_refused),

@@ -107,7 +107,7 @@ static size_t crossings_anywhere(const sp_mesh *mesh)
  * changes nothing. */
 static sp_mesh *mend(const sp_mesh *mesh, sp_repair_account *account)
 {
-    sp_mesh *mended = sp_mesh_repair(mesh, account, NULL);
+    sp_mesh *mended = sp_mesh_repair(mesh, NULL, account, NULL);
     assert_non_null(mended);
     sp_mesh_diagnosis after;
     assert_true(sp_mesh_diagnose(mended, &after, NULL));
@@ -118,7 +118,7 @@ static sp_mesh *mend(const sp_mesh *mesh, sp_repair_account *account)
     if (after.crossings.count > account->before.crossings.count) /* between what had been two shells */
         assert_true(crossings_anywhere(mended) <= crossings_anywhere(mesh));
     sp_repair_account again;
-    sp_mesh *twice = sp_mesh_repair(mended, &again, NULL);
+    sp_mesh *twice = sp_mesh_repair(mended, NULL, &again, NULL);
     assert_non_null(twice);
     assert_int_equal(changes(&again), 0);
     assert_true(is_same(mended, twice));
@@ -366,12 +366,95 @@ static void slivers_are_split_into_their_neighbours(void **state)
     assert_int_equal(changes(&account), 1);
 }
 
+/* Both halves of the lid are there twice, in other parts: 0, 1 and 2 are the box, the lid and half of it. */
+static void what_parts_lose_is_told(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"box", "lid", "half"};
+    static const uint32_t orders[][3] = {{0, 1, 2}, {2, 0, 1}};
+    for (int order = 0; order < 2; order++)
+        for (uint32_t wanted = 0; wanted < 4; wanted++) {
+            uint32_t part[15] = {0}, box_part = orders[order][0];
+            drawing d = one_box(0);
+            put(&d, 4, 5, 6);
+            put(&d, 6, 7, 4);
+            put(&d, 5, 6, 4);
+            for (int t = 0; t < 15; t++)
+                part[t] = t < 12 ? box_part : orders[order][t < 14 ? 1 : 2];
+            const bool preferred[3] = {wanted == 0, wanted == 1, wanted == 2};
+            sp_repair_account account;
+            sp_mesh *mesh =
+                sp_mesh_create(d.points, d.point_count, (const uint32_t(*)[3])d.triangles, 15, part, names, 3, NULL);
+            sp_mesh *mended = sp_mesh_repair(mesh, wanted < 3 ? preferred : NULL, &account, NULL);
+            assert_int_equal(account.copies, 3);
+            double area[3] = {0}, lost[3] = {0};
+            for (uint32_t t = 0; t < mended->triangle_count; t++)
+                area[mended->part[t]] += sp_triangle_area(mended, t);
+            for (size_t i = 0; i < account.yield_count; i++)
+                lost[account.yields[i].part] += account.yields[i].area;
+            uint32_t lid = orders[order][1], half = orders[order][2];
+            bool to_lid = wanted == lid, to_half = wanted == half;
+            assert_true(fabs(area[box_part] - (to_lid ? 20 : to_half ? 21 : 22)) < 1e-12);
+            assert_true(fabs(area[lid] - (to_lid ? 2 : 0)) < 1e-12);
+            assert_true(fabs(area[half] - (to_half ? 1 : 0)) < 1e-12);
+            assert_true(fabs(lost[box_part] - (to_lid ? 2 : to_half ? 1 : 0)) < 1e-12);
+            assert_true(fabs(lost[lid] - (to_lid ? 0 : 2)) < 1e-12);
+            assert_true(fabs(lost[half] - (to_half ? 0 : 1)) < 1e-12);
+            sp_mesh_destroy(mended);
+            sp_mesh_destroy(mesh);
+        }
+}
+
+/* The ends of a pipe of three walls, cut straight or at 45 degrees, are left open. */
+static void ends_of_pipes_stay_open(void **state)
+{
+    (void)state;
+    for (int slanted = 0; slanted < 2; slanted++) {
+        drawing d = {0};
+        for (int end = 0; end < 2; end++)
+            for (int i = 0; i < 3; i++) {
+                double x = cos(2 * M_PI * i / 3), y = sin(2 * M_PI * i / 3);
+                put_point(&d, x, y, end ? 5 + slanted * x : 0);
+            }
+        for (uint32_t i = 0; i < 3; i++) {
+            put(&d, i, (i + 1) % 3, 3 + (i + 1) % 3);
+            put(&d, i, 3 + (i + 1) % 3, 3 + i);
+        }
+        expect_left(&d);
+    }
+}
+
+static void what_is_put_in_is_told(void **state)
+{
+    (void)state;
+    enum { EDGE = 6 };
+    drawing d = {0};
+    for (uint32_t i = 0; i < (EDGE + 1) * (EDGE + 1); i++)
+        put_point(&d, 1.0 * (i % (EDGE + 1)) * (i % (EDGE + 1)), i / (EDGE + 1), 0);
+    for (uint32_t y = 0; y < EDGE; y++)
+        for (uint32_t x = 0; x < EDGE; x++) {
+            uint32_t at = y * (EDGE + 1) + x;
+            if (y != 1 || (x != 1 && x != 3))
+                put(&d, at, at + 1, at + EDGE + 2);
+            put(&d, at, at + EDGE + 2, at + EDGE + 1);
+        }
+    sp_repair_account account;
+    sp_mesh *mesh = make(&d), *mended = mend(mesh, &account);
+    assert_int_equal(account.filled, 2);
+    assert_true(fabs(account.filled_area - 5) < 1e-15); /* of 3 and of 7 by 1, half */
+    assert_true(fabs(account.fillings[0].area - 3.5) < 1e-15 && fabs(account.fillings[1].area - 1.5) < 1e-15);
+    assert_true(fabs(account.fillings[0].place.x - 41.0 / 3) < 1e-14);
+    sp_mesh_destroy(mended);
+    sp_mesh_destroy(mesh);
+}
+
 static void only_single_triangles_are_filled_in(void **state)
 {
     (void)state;
     drawing d = one_box(1);
     sp_repair_account account = expect_body(&d, 22, 6);
     assert_int_equal(account.filled, 1);
+    assert_true(fabs(account.filled_area - 1) < 1e-15);
     d = one_box(2);
     expect_left(&d);
     d = (drawing){0};
@@ -675,6 +758,9 @@ int main(void)
         cmocka_unit_test(a_sheet_there_twice_is_there_once),
         cmocka_unit_test(copies_with_a_reason_stay),
         cmocka_unit_test(slivers_are_split_into_their_neighbours),
+        cmocka_unit_test(what_parts_lose_is_told),
+        cmocka_unit_test(ends_of_pipes_stay_open),
+        cmocka_unit_test(what_is_put_in_is_told),
         cmocka_unit_test(only_single_triangles_are_filled_in),
         cmocka_unit_test(one_sided_strips_stay),
         cmocka_unit_test(soups_get_no_worse),

@@ -1,7 +1,5 @@
 #include "repair.h"
 
-#include "flaws.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,12 +76,41 @@ static char *path_of(const char *out, size_t index, size_t count)
     return path;
 }
 
-static bool write_piece(const sp_setup *setup, uint32_t geometry, sp_output *output, cli_mended *file, sp_error *error)
+static void measure_parts(const sp_mesh *mesh, double *area)
+{
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        area[mesh->part[t]] += sp_triangle_area(mesh, t);
+}
+
+/* With what is to be cleaned preferred. */
+static sp_mesh *mend(const sp_setup *setup, const sp_mesh *piece, cli_mended *file, sp_error *error)
+{
+    sp_mesh *mended = NULL;
+    bool *clean = malloc(piece->part_count + 1);
+    file->first_part = range_of(setup->mesh, file->geometry).first_part;
+    file->part_count = piece->part_count;
+    file->part_area = calloc(2 * piece->part_count + 1, sizeof *file->part_area);
+    if (clean && file->part_area) {
+        for (size_t i = 0; i < piece->part_count; i++)
+            clean[i] = setup->surfaces[file->first_part + i].clean;
+        mended = sp_mesh_repair(piece, clean, &file->account, error);
+    } else {
+        sp_fail_memory(error);
+    }
+    if (mended) {
+        measure_parts(piece, file->part_area);
+        measure_parts(mended, file->part_area + piece->part_count);
+    }
+    free(clean);
+    return mended;
+}
+
+static bool write_piece(const sp_setup *setup, sp_output *output, cli_mended *file, sp_error *error)
 {
     const char *slash = strrchr(file->path, '/');
     const char *target = sp_output_path(output, slash ? slash + 1 : file->path, error);
-    sp_mesh *piece = target ? piece_of(setup, geometry, error) : NULL;
-    sp_mesh *mended = piece ? sp_mesh_repair(piece, &file->account, error) : NULL;
+    sp_mesh *piece = target ? piece_of(setup, file->geometry, error) : NULL;
+    sp_mesh *mended = piece ? mend(setup, piece, file, error) : NULL;
     bool good = mended && sp_mesh_write_obj(mended, target, error);
     sp_mesh_destroy(mended);
     sp_mesh_destroy(piece);
@@ -102,8 +129,9 @@ bool cli_repair_write(const cli_options *options, const sp_scene *scene, cli_rep
     sp_output *output = good ? cli_output_open(options, folder, &scene, 1, error) : NULL;
     good = output != NULL;
     for (uint32_t i = 0; good && i < repair->count; i++) {
+        repair->files[i].geometry = i;
         repair->files[i].path = path_of(options->repair, i, repair->count);
-        good = repair->files[i].path ? write_piece(setup, i, output, &repair->files[i], error)
+        good = repair->files[i].path ? write_piece(setup, output, &repair->files[i], error)
                                      : sp_fail_memory(error) != NULL;
     }
     free(folder);
@@ -115,55 +143,10 @@ bool cli_repair_write(const cli_options *options, const sp_scene *scene, cli_rep
 
 void cli_repair_clear(cli_repair *repair)
 {
-    for (size_t i = 0; repair->files && i < repair->count; i++)
+    for (size_t i = 0; repair->files && i < repair->count; i++) {
         free(repair->files[i].path);
+        free(repair->files[i].part_area);
+    }
     free(repair->files);
     *repair = (cli_repair){0};
-}
-
-static void print_count(size_t count, const char *what, bool *any)
-{
-    if (!count)
-        return;
-    printf("%s %zu %s", *any ? "," : "", count, what);
-    *any = true;
-}
-
-void cli_repair_print(const cli_repair *repair)
-{
-    for (size_t i = 0; i < repair->count; i++) {
-        const sp_repair_account *a = &repair->files[i].account;
-        bool any = false;
-        printf("\n%s:", repair->files[i].path);
-        print_count(a->joined, "corners at cracks joined", &any);
-        print_count(a->split, "triangles split at others' corners", &any);
-        print_count(a->turned, "triangles turned over", &any);
-        print_count(a->filled, "missing triangles put in", &any);
-        print_count(a->copies, "copies taken out", &any);
-        print_count(a->dropped, "triangles without area dropped", &any);
-        printf("%s; area %.6g -> %.6g m2, closed shells %zu of %zu -> %zu of %zu\n", any ? "" : " nothing to mend",
-               a->before.area, a->after.area, a->before.closed_shells, a->before.shells, a->after.closed_shells,
-               a->after.shells);
-        cli_flaws_print_change(&a->before, &a->after);
-        printf("in m and in its place: instead of geometry %zu, without unit, scale, rotate, translate, chord, angle\n",
-               i);
-    }
-}
-
-json_t *cli_repair_json(const cli_repair *repair)
-{
-    json_t *list = repair->count ? json_array() : json_null();
-    for (size_t i = 0; i < repair->count; i++) {
-        const sp_repair_account *a = &repair->files[i].account;
-        json_array_append_new(
-            list, json_pack("{s:I, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:[ff], s:[II], s:[II], s:o, s:o}", "geometry",
-                            (json_int_t)i, "file", repair->files[i].path, "joined_corners", (json_int_t)a->joined,
-                            "split_triangles", (json_int_t)a->split, "turned_triangles", (json_int_t)a->turned,
-                            "filled_triangles", (json_int_t)a->filled, "copies", (json_int_t)a->copies,
-                            "dropped_triangles", (json_int_t)a->dropped, "area_m2", a->before.area, a->after.area,
-                            "shells", (json_int_t)a->before.shells, (json_int_t)a->after.shells, "closed_shells",
-                            (json_int_t)a->before.closed_shells, (json_int_t)a->after.closed_shells, "flaws_before",
-                            cli_flaws_json(&a->before), "flaws_after", cli_flaws_json(&a->after)));
-    }
-    return list;
 }

@@ -7,8 +7,11 @@
 #include <jansson.h>
 
 typedef struct {
-    char *path; /* owned */
+    uint32_t geometry; /* which of the scene */
+    char *path;        /* owned */
     sp_repair_account account;
+    size_t first_part, part_count; /* of the scene's mesh, in this file */
+    double *part_area;             /* [2 part_count], m², owned: of each part before, then after */
 } cli_mended;
 
 typedef struct {
@@ -22,8 +25,9 @@ bool cli_repair_write(const cli_options *options, const sp_scene *scene, cli_rep
 /* Accepts what was never written, if it is all zeros. */
 void cli_repair_clear(cli_repair *repair);
 
-void cli_repair_print(const cli_repair *repair);
+/* `setup` is of the scene that was mended. */
+void cli_repair_print(const cli_repair *repair, const sp_setup *setup);
 /* null without --repair. */
-json_t *cli_repair_json(const cli_repair *repair);
+json_t *cli_repair_json(const cli_repair *repair, const sp_setup *setup);
 
 #endif

@@ -102,7 +102,7 @@ void cli_findings_print(const cli_findings *found, const char *output)
     bool open = cli_openings_print(found->opened->evaluator);
     print_hollows(found);
     bool flawed = cli_flaws_print(&found->mesh);
-    cli_repair_print(&found->repair);
+    cli_repair_print(&found->repair, setup);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");

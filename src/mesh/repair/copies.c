@@ -1,4 +1,4 @@
-/* Triangles that lie where the same one lies.
+/* Triangles that lie where the same one lies, be it of another part.
  *
  * Bodies that touch have such by right, and so has a sheet that was drawn with both of its sides: taken out, they would
  * leave edges whose triangles do not run one way as often as the other. What is there twice for no reason leaves edges
@@ -48,12 +48,25 @@ static size_t choose_among(copies *c, size_t from, size_t to, choice which)
     return chosen;
 }
 
+static bool is_other_side(const copies *c, size_t first, size_t i)
+{
+    const sp_mesh *mesh = c->edit->mesh;
+    return runs_upwards(mesh->triangles[c->order[i]]) != runs_upwards(mesh->triangles[c->order[first]]);
+}
+
+static size_t group_end(const sp_mesh *mesh, const uint32_t *order, size_t from)
+{
+    size_t to = from + 1;
+    while (to < mesh->triangle_count && sp_are_twins(mesh, order[from], order[to]))
+        to++;
+    return to;
+}
+
 static size_t choose(copies *c, choice which)
 {
     size_t count = c->edit->mesh->triangle_count, chosen = 0;
     for (size_t from = 0, to; from < count; from = to) {
-        for (to = from + 1; to < count && sp_are_twins(c->edit->mesh, c->order[from], c->order[to]);)
-            to++;
+        to = group_end(c->edit->mesh, c->order, from);
         chosen += choose_among(c, from, to, which);
     }
     for (uint32_t t = 0; t < count; t++) {
@@ -124,6 +137,61 @@ static size_t take_out(copies *c, sp_mesh_edit *edit, choice which)
     return done;
 }
 
+/* Which of order[from .. to] stay in the place of others that face the side that the first does (0), or the other: the
+ * first of the same side, else of any. */
+static void find_staying(const copies *c, const sp_mesh_edit *edit, size_t from, size_t to, uint32_t staying[2])
+{
+    staying[0] = staying[1] = SP_NONE;
+    for (size_t i = to; i-- > from;)
+        if (edit->triangles[c->order[i]][0] != SP_NONE)
+            staying[is_other_side(c, from, i)] = c->order[i];
+    for (int side = 0; side < 2; side++)
+        staying[side] = staying[side] == SP_NONE ? staying[1 - side] : staying[side];
+}
+
+static void note_yield(sp_repair_account *account, uint32_t part, uint32_t to, double area)
+{
+    size_t at = 0;
+    while (at < account->yield_count && (account->yields[at].part != part || account->yields[at].to != to))
+        at++;
+    if (at == SP_PLACES) {
+        account->other_yields++;
+        return;
+    }
+    if (at == account->yield_count)
+        account->yields[account->yield_count++] = (sp_yield){part, to, 0, 0};
+    account->yields[at].triangles++;
+    account->yields[at].area += area;
+}
+
+/* Gives what stays to a preferred part that lay there too. */
+static void prefer(const copies *c, sp_mesh_edit *edit, size_t from, size_t to, const uint32_t staying[2])
+{
+    for (size_t i = from; edit->preferred && i < to; i++) {
+        uint32_t lost = c->order[i], kept = staying[is_other_side(c, from, i)], part = edit->part[lost];
+        if (edit->triangles[lost][0] != SP_NONE || !edit->preferred[part] || edit->preferred[edit->part[kept]])
+            continue;
+        note_yield(edit->account, edit->part[kept], part, sp_triangle_area(edit->mesh, kept));
+        edit->part[kept] = part;
+    }
+}
+
+/* Notes which part lost triangles to which. */
+static void settle_parts(const copies *c, sp_mesh_edit *edit)
+{
+    for (size_t from = 0, to; from < edit->mesh->triangle_count; from = to) {
+        uint32_t staying[2];
+        to = group_end(edit->mesh, c->order, from);
+        find_staying(c, edit, from, to, staying);
+        prefer(c, edit, from, to, staying);
+        for (size_t i = from; i < to; i++) {
+            uint32_t lost = c->order[i], kept = staying[is_other_side(c, from, i)];
+            if (edit->triangles[lost][0] == SP_NONE && edit->part[lost] != edit->part[kept])
+                note_yield(edit->account, edit->part[lost], edit->part[kept], sp_triangle_area(edit->mesh, lost));
+        }
+    }
+}
+
 bool sp_take_out_copies(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
@@ -136,6 +204,8 @@ bool sp_take_out_copies(sp_mesh_edit *edit, bool careful, size_t *done, sp_error
     for (choice which = SAME_SIDE; good && !*done && which < CHOICES; which++)
         if (choose(&c, which))
             *done = take_out(&c, edit, which);
+    if (*done)
+        settle_parts(&c, edit);
     free(c.order);
     free(c.chosen);
     free(c.set);

@@ -1,12 +1,16 @@
-/* Triangles that are missing: three open edges, of more than one triangle, run round a triangle. Wider openings are
- * ports, rims and lids as often as holes, and stay. */
+/* Triangles that are missing: three open edges, of more than one triangle, run round a triangle, and the surface beside
+ * it goes on into its plane. Wider openings are ports, rims and lids as often as holes, and stay; so do ends of pipes,
+ * from which all their walls turn away. */
 #include "mesh/repair/mesh_edit.h"
 
 #include <stdlib.h>
 
 #define SEVERAL (SP_NONE - 1)
-#define WIDEST 0.25   /* of the area of the shell around it: else it is a mouth */
-#define FOLDED (-0.5) /* cosine between a triangle's and a neighbour's normal */
+#define WIDEST 0.25 /* of the area of the shell around it: else it is a mouth */
+/* Cosines between a triangle's and a neighbour's normal. */
+#define FOLDED (-0.5)
+#define GOES_ON 0.866 /* one is enough */
+#define BENDS 0.5     /* and so are two */
 
 typedef struct {
     sp_mesh_edit *edit;
@@ -51,10 +55,34 @@ static bool fits(const filling *f, const uint32_t around[3], const uint32_t corn
     if (!sp_keeps_its_side(mesh, area, corners) ||
         0.5 * sp_length(area) > WIDEST * f->area[f->edit->shell[around[0] / 3]])
         return false;
-    for (int k = 0; k < 3; k++)
-        if (sp_dot(normal, sp_triangle_normal(mesh, around[k] / 3)) < FOLDED)
+    int bending = 0;
+    bool goes_on = false;
+    for (int k = 0; k < 3; k++) {
+        double cosine = sp_dot(normal, sp_triangle_normal(mesh, around[k] / 3));
+        if (cosine < FOLDED)
             return false;
-    return true;
+        bending += cosine > BENDS;
+        goes_on |= cosine > GOES_ON;
+    }
+    return goes_on || bending >= 2;
+}
+
+/* Into the account, the largest first. */
+static void note(const sp_mesh_edit *edit, const uint32_t corners[3])
+{
+    const sp_vec3 *v = edit->mesh->vertices;
+    sp_filling *fillings = edit->account->fillings;
+    sp_filling own = {sp_scale(sp_add(sp_add(v[corners[0]], v[corners[1]]), v[corners[2]]), 1.0 / 3),
+                      0.5 * sp_length(sp_corners_area(edit->mesh, corners))};
+    size_t at = 0;
+    edit->account->filled_area += own.area;
+    while (at < SP_PLACES && fillings[at].area > 0)
+        at++;
+    for (; at > 0 && fillings[at - 1].area < own.area; at--)
+        if (at < SP_PLACES)
+            fillings[at] = fillings[at - 1];
+    if (at < SP_PLACES)
+        fillings[at] = own;
 }
 
 bool sp_fill_holes(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error)
@@ -78,6 +106,7 @@ bool sp_fill_holes(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *err
             continue;
         uint32_t part = mesh->part[around[1] / 3] == mesh->part[around[2] / 3] ? around[1] / 3 : around[0] / 3;
         good = sp_mesh_edit_add(edit, corners[0], corners[1], corners[2], mesh->part[part], error);
+        note(edit, corners);
         ++*done;
     }
     free(f.next);

@@ -9,11 +9,14 @@ typedef struct {
     sp_half_edges edges; /* of the mesh */
     uint32_t *shell;     /* [mesh->triangle_count]: the least triangle that hangs together with it by edges */
     size_t count, room, part_room;
-    uint32_t (*triangles)[3]; /* [count]: at first those of the mesh; first corner SP_NONE: taken out */
-    uint32_t *part;           /* [count] */
+    uint32_t (*triangles)[3];   /* [count]: at first those of the mesh; first corner SP_NONE: taken out */
+    uint32_t *part;             /* [count] */
+    const bool *preferred;      /* [part_count], borrowed; NULL: no part is */
+    sp_repair_account *account; /* borrowed: of yields and fillings */
 } sp_mesh_edit;
 
-/* The mesh must outlive it. False when memory runs out; then there is nothing to close. */
+/* For the menders `preferred` and `account` are to be set. The mesh must outlive it. False when memory runs out; then
+ * there is nothing to close. */
 bool sp_mesh_edit_open(sp_mesh_edit *edit, const sp_mesh *mesh, sp_error *error);
 void sp_mesh_edit_close(sp_mesh_edit *edit);
 bool sp_mesh_edit_add(sp_mesh_edit *edit, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error);
@@ -30,7 +33,8 @@ bool sp_keeps_its_side(const sp_mesh *mesh, sp_vec3 area_before, const uint32_t 
 typedef bool sp_mender(sp_mesh_edit *edit, bool careful, size_t *done, sp_error *error);
 
 /* copies.c: takes out triangles that lie where the same one lies, as long as every edge has neighbours afterwards that
- * fit no worse: not those by which two bodies touch, nor a sheet's other side. Done: triangles. */
+ * fit no worse: not those by which two bodies touch, nor a sheet's other side. What stays goes to a preferred part
+ * where there is one among them. Done: triangles. */
 sp_mender sp_take_out_copies;
 /* turns.c: turns triangles over so that neighbours agree, as most of the surface that hangs together has it. What has
  * but one side, as a Möbius strip, stays as it is. Done: triangles. */
@@ -40,7 +44,7 @@ sp_mender sp_join_cracks;
 /* junctions.c: splits triangles where corners lie on their open edges and these are others' edges then. Done:
  * triangles. */
 sp_mender sp_split_at_corners;
-/* holes.c: puts a triangle where one is missing. Done: triangles. */
+/* holes.c: puts a triangle where one is missing from a surface that goes on. Done: triangles. */
 sp_mender sp_fill_holes;
 
 #endif

@@ -12,11 +12,13 @@ typedef struct {
     bool diagnosed;
     sp_mesh_diagnosis diagnosis; /* of the mesh, once it is diagnosed */
     size_t changes;
+    const bool *preferred; /* [part_count], borrowed, or NULL */
     sp_repair_account *account;
 } mending;
 
 /* One mender, again and again. *made: NULL where it did nothing. */
-static bool apply(const sp_mesh *mesh, sp_mender *mend, bool careful, sp_mesh **made, size_t *count, sp_error *error)
+static bool apply(const mending *m, const sp_mesh *mesh, sp_mender *mend, bool careful, sp_mesh **made, size_t *count,
+                  sp_error *error)
 {
     *made = NULL;
     *count = 0;
@@ -25,6 +27,8 @@ static bool apply(const sp_mesh *mesh, sp_mender *mend, bool careful, sp_mesh **
         size_t done = 0;
         if (!sp_mesh_edit_open(&edit, *made ? *made : mesh, error))
             return false;
+        edit.preferred = m->preferred;
+        edit.account = m->account;
         sp_mesh *next = NULL;
         bool good = mend(&edit, careful, &done, error) && (!done || (next = sp_mesh_edit_mesh(&edit, error)));
         sp_mesh_edit_close(&edit);
@@ -92,7 +96,7 @@ static bool do_for_sure(mending *m, sp_mender *mend, size_t *count, sp_error *er
 {
     sp_mesh *made;
     size_t done;
-    if (!apply(m->mesh, mend, false, &made, &done, error))
+    if (!apply(m, m->mesh, mend, false, &made, &done, error))
         return false;
     if (made)
         accept(m, made);
@@ -104,16 +108,17 @@ static bool do_for_sure(mending *m, sp_mender *mend, size_t *count, sp_error *er
  * was for the better. */
 static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bool *settled, sp_error *error)
 {
+    const sp_repair_account before = *m->account;
     sp_mesh *made, *turned;
     sp_mesh_diagnosis diagnosis;
     size_t done, turns;
     *settled = false;
-    if (!apply(m->mesh, mend, careful, &made, &done, error))
+    if (!apply(m, m->mesh, mend, careful, &made, &done, error))
         return false;
     *settled = !made;
     if (!made)
         return true;
-    bool good = apply(made, sp_turn_over, false, &turned, &turns, error);
+    bool good = apply(m, made, sp_turn_over, false, &turned, &turns, error);
     if (turned) {
         sp_mesh_destroy(made);
         made = turned;
@@ -121,6 +126,7 @@ static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bo
     good = good && diagnose(m, error) && sp_mesh_diagnose(made, &diagnosis, error) &&
            is_better(m, made, &diagnosis, settled, error);
     if (!*settled) {
+        *m->account = before;
         sp_mesh_destroy(made);
         return good;
     }
@@ -161,10 +167,10 @@ static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
     return sp_mesh_edit_mesh(&edit, error);
 }
 
-sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error)
+sp_mesh *sp_mesh_repair(const sp_mesh *mesh, const bool *preferred, sp_repair_account *account, sp_error *error)
 {
     *account = (sp_repair_account){0};
-    mending m = {.account = account, .diagnosed = true};
+    mending m = {.preferred = preferred, .account = account, .diagnosed = true};
     bool good = sp_mesh_diagnose(mesh, &account->before, error) && (m.mesh = cleared(mesh, error));
     m.diagnosis = account->before;
     m.diagnosis.degenerate = (sp_flaw){0};
