@@ -126,9 +126,25 @@ static void check_says_where_liquid_stands(void **state)
     free(page);
 }
 
+/* A bow-tie beside a U, which is no matter. */
+static void tangled_polygons_are_warned_of(void **state)
+{
+    (void)state;
+    write_file("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv .65 1 1\n"
+                          "v .65 .3 1\nv .35 .3 1\nv .35 1 1\nv 0 1 1\nf 7 8 9 10 11 12 5 6\n");
+    write_file("bow.yaml", "geometry:\n  - {file: bow.obj}\n");
+    json_t *check = expect_json("check bow.yaml --json", 0);
+    assert_true(number(json_object_get(check, "mesh"), "tangled_polygons") == 1);
+    json_decref(check);
+    outcome result = run_program("check bow.yaml");
+    assert_non_null(strstr(result.out, "warning: geometry: 1 polygons cross their own outline"));
+    forget(&result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tangled_polygons_are_warned_of),
         cmocka_unit_test(check_measures_the_room),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),

@@ -67,9 +67,9 @@ static bool read_stl_binary(uint64_t *digest, sp_error *error)
 
 static bool read_ply(uint64_t *digest, sp_error *error)
 {
-    static const char text[] = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                               "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
-                               "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 2 1\n";
+    static const char text[] = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n"
+                               "0 0 0\n1 0 0\n1 1 0\n0 1 0\n.9 .1 0\n4 0 1 2 3\n3 0 2 1\n4 1 4 2 0\n";
     return read_mesh(".ply", text, sizeof text - 1, digest, error);
 }
 
