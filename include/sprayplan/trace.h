@@ -50,7 +50,8 @@ SP_API sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_ve
 /* True where anything but `skip` is hit within (t_min, t_max). */
 SP_API bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
 
-/* Many rays: hits[count] / occluded[count] are the caller's. `threads` as in sp_run. */
+/* Many rays: hits[count] / occluded[count] are the caller's. `threads` as in sp_run, of which more than
+ * SP_THREADS are as many as that. */
 SP_API void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity,
                                   int threads, sp_hit *hits);
 SP_API void sp_trace_occluded_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity,

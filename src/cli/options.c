@@ -30,7 +30,7 @@ static bool parse_threads(const char *text, int *threads)
 {
     const char *rest = text;
     double value;
-    if (!read_number(&rest, &value) || *rest || value != floor(value) || value < 1 || value > 1024)
+    if (!read_number(&rest, &value) || *rest || value != floor(value) || value < 1 || value > SP_THREADS)
         return wrong("--threads", text, "a whole number from 1 to 1024");
     *threads = (int)value;
     return true;

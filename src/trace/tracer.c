@@ -3,6 +3,8 @@
 #include "trace/parabola/parabola_bvh.h"
 #include "trace/parabola/parabola_packet.h"
 
+#include "allowed.h"
+
 #include <omp.h>
 #include <stdlib.h>
 
@@ -17,7 +19,7 @@ struct sp_tracer {
 
 static int thread_count(int threads)
 {
-    return threads > 0 ? threads : omp_get_max_threads();
+    return threads > SP_THREADS ? SP_THREADS : threads > 0 ? threads : omp_get_max_threads();
 }
 
 static bool enclose(const sp_mesh *mesh, sp_kd_tree *tree)
@@ -48,7 +50,7 @@ static bool build(sp_tracer *tracer, int threads)
 
 sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, int threads, sp_error *error)
 {
-    if (!mesh) /* its making failed and said so */
+    if (!mesh || !sp_are_threads(threads, error)) /* its making failed and said so */
         return NULL;
     sp_tracer *tracer = calloc(1, sizeof *tracer);
     if (!tracer)
