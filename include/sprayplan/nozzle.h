@@ -35,7 +35,7 @@ typedef struct {
     sp_pattern jet;    /* one of the first four; in a two-axis head a cone or stream no wider than 90 deg */
     double tilt, roll; /* rad, [0, π] and any; one axis only */
     unsigned jets;     /* 0: about one axis only */
-    unsigned gears[2]; /* teeth, as follows; two axes only */
+    unsigned gears[2]; /* teeth, > 0, as follows; two axes only */
     double speed;      /* rad/s of the body; 0: not known */
     unsigned turns;    /* of the body in a run; 0: until the tracks repeat */
 } sp_rotation;
@@ -95,10 +95,10 @@ typedef struct {
     double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans; 0 for clusters */
     double hollow;               /* share of the angle that is empty, [0, 1); hollow cones only */
     double thickness;            /* rad, (0, π]; flat fans only */
-    double flow;                 /* m³/s of water (1000 kg/m³) at pressure `at` */
-    double at;                   /* Pa */
-    double exponent;             /* n in Q = K dp^n */
-    double cv;                   /* v0 = cv sqrt(2 dp / rho) */
+    double flow;                 /* m³/s of water (1000 kg/m³) at pressure `at`, 0 or more */
+    double at;                   /* Pa, > 0 */
+    double exponent;             /* n in Q = K dp^n, [0, 1] */
+    double cv;                   /* v0 = cv sqrt(2 dp / rho), [0, 1] */
     double drop;                 /* diameter of the drops, m */
     sp_trajectory trajectory;    /* of its liquid; auto: as the simulation's does. A cluster's members have its own */
     double angle_min, angle_max; /* rad; equal to angle where not adjustable */
@@ -134,15 +134,15 @@ typedef struct sp_member {
  * it. */
 SP_API bool sp_is_url(const char *text);
 
-/* One nozzle of a layout. */
+/* One nozzle of a layout. All that is a number is finite. */
 typedef struct {
     char name[SP_NAME];
     const sp_nozzle_type *type; /* borrowed from the catalogue */
     sp_vec3 position;           /* m */
     sp_vec3 axis;               /* unit */
     double roll;                /* rad */
-    double pressure;            /* Pa */
-    double angle;               /* rad; 0: the type's */
+    double pressure;            /* Pa, 0 or more */
+    double angle;               /* rad, as its type's; 0: the type's own */
     double flow;                /* m³/s as sprayed, at this pressure, of this liquid; 0: from type and pressure */
     double speed;               /* m/s at the exit; 0: from type and pressure */
     uint64_t jets;              /* of the forward evaluator; 0: the simulation's */
@@ -192,8 +192,11 @@ SP_API size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
  * as for sp_nozzle_frame.
  */
 SP_API void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
-/* False, with an error that names the type, of a measured type without patternation, and of a cluster without members,
- * with more than SP_MEMBERS, or with a member that is a cluster or not whole, or whose share is not above 0. */
+/* False, with an error that names the type, of one whose pattern or trajectory is none, or whose angle, hollow,
+ * thickness or rotation is beyond what is said above; of a measured type without patternation, and of a cluster without
+ * members, with more than SP_MEMBERS, or with a member that is a cluster or not whole, or whose share is not above 0.
+ * Whatever takes a nozzle or a layout asks that first, and of nozzles what is said of these; it fails with
+ * SP_ERROR_ARGUMENT. */
 SP_API bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
 /* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates or is measured. The

@@ -93,30 +93,3 @@ void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3
         before = after;
     }
 }
-
-bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error)
-{
-    const char *wrong = NULL;
-    if (type->pattern >= sp_form_count)
-        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: expected one of the patterns", type->name);
-    if (sp_type_rotates(type) && !sp_pattern_turns(type->rotation.jet))
-        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: rotating, expected a cone, fan or stream as jet",
-                       type->name);
-    if (type->pattern == SP_PATTERN_MEASURED && !type->patternation)
-        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: measured, expected a patternation", type->name);
-    if (type->pattern != SP_PATTERN_CLUSTER)
-        return true;
-    if (!type->members || type->member_count < 1 || type->member_count > SP_MEMBERS)
-        wrong = "1 to 1000 members";
-    for (size_t i = 0; !wrong && i < type->member_count; i++)
-        if (type->members[i].type.pattern == SP_PATTERN_CLUSTER)
-            wrong = "members that are no clusters";
-        else if (!sp_type_is_whole(&type->members[i].type, error))
-            return false;
-        else if (!(type->members[i].share > 0 && type->members[i].share < 1e300)) /* so that they add up */
-            wrong = "members with a share of the flow above 0";
-        else if (!(type->members[i].speed >= 0 && type->members[i].speed < 1e300))
-            wrong = "members with a part of the exit speed of 0 (all of it) or more";
-    return !wrong ||
-           sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: a cluster, expected %s", type->name, wrong);
-}

@@ -97,7 +97,8 @@ size_t sp_patternation_layers(const float *values, const float *speeds, size_t c
 {
     layering image = {.values = values, .speeds = speeds, .columns = columns, .rows = rows, .angle = angle};
     double slowest, fastest;
-    if (!sp_patternation_check(values, columns, rows, angle, error) || !find_range(&image, &slowest, &fastest, error))
+    if (!speeds || !sp_patternation_check(values, columns, rows, angle, error) ||
+        !find_range(&image, &slowest, &fastest, error))
         return 0;
     set_speeds(&image, slowest, fastest);
     float *room = malloc(rows * columns * sizeof *room);

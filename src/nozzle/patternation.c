@@ -17,6 +17,8 @@ bool sp_patternation_check(const float *values, size_t columns, size_t rows, dou
     if (!(angle >= NARROWEST && angle <= 2 * M_PI))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "an angle of %g rad found, expected %g to 2 pi", angle,
                        NARROWEST);
+    if (!values)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "no values found, expected %zu x %zu", columns, rows);
     for (size_t i = 0; i < rows * columns; i++) {
         if (!(values[i] >= 0 && values[i] < INFINITY))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -1,9 +1,11 @@
 /* A layout as a fitter measures it. */
 #include <sprayplan/fitting.h>
 
+#include "allowed.h"
 #include "mesh/distance.h"
 #include "mounts/mount_geometry.h"
 #include "nozzle/pattern.h"
+#include "nozzle/whole.h"
 
 #include <stdlib.h>
 
@@ -130,6 +132,9 @@ static bool is_round(const sp_setup *setup)
 sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
                                           size_t mount_count, sp_error *error)
 {
+    if (!layout || !setup || !sp_layout_is_whole(layout, error) ||
+        !sp_is_listed((sp_owner){"", ""}, "mounts", mounts, mount_count, error))
+        return NULL;
     static const sp_fitting_place nowhere = {NAN, NAN, NAN, NAN, NAN};
     sp_fitting_sheet *sheet = calloc(1, sizeof *sheet);
     if (!sheet)

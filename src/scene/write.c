@@ -1,4 +1,5 @@
 /* A scene as text: what it says, with another layout and nothing left to auto. */
+#include "nozzle/whole.h"
 #include "scene/locale.h"
 #include "scene/state.h"
 
@@ -210,6 +211,8 @@ char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fid
 {
     sp_locale locale;
     if (!scene || !layout || !fidelity || !directory)
+        return NULL;
+    if (!sp_layout_has_types(layout, error))
         return NULL;
     if (!decided(fidelity)) {
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a scene is written with settings that leave nothing to auto");

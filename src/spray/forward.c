@@ -7,6 +7,7 @@
 #include "launch.h"
 #include "lit_share.h"
 #include "movers.h"
+#include "nozzle/whole.h"
 #include "splat.h"
 #include "tally.h"
 
@@ -342,6 +343,8 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: no jets found, expected at least 1");
         return NULL;
     }
+    if (!sp_layout_is_whole(layout, error))
+        return NULL;
     double flow = sp_layout_flow(layout, &evaluator->setup.liquid);
     return evaluate(evaluator, layout, 0, flow / (double)jets, NULL, error);
 }

@@ -1,5 +1,6 @@
 #include "launch.h"
 
+#include "nozzle/whole.h"
 #include "spray/drag/chain.h"
 #include "spray/state/state.h"
 
@@ -37,6 +38,8 @@ bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp
 
 sp_launch_table *sp_launch_table_create(const sp_evaluator *evaluator, double far, sp_error *error)
 {
+    if (!evaluator)
+        return NULL;
     sp_launch_table *table = calloc(1, sizeof *table);
     if (!table)
         return sp_fail_memory(error);
@@ -117,6 +120,8 @@ static bool add_pattern(sp_launch_table *table, const sp_nozzle *pattern, sp_err
 
 bool sp_launch_table_add(sp_launch_table *table, const sp_nozzle *nozzle, sp_error *error)
 {
+    if (!table || !nozzle || !sp_nozzle_is_whole(nozzle, error))
+        return false;
     const sp_setup *setup = &table->evaluator->setup;
     size_t count = sp_nozzle_pattern_count(nozzle);
     sp_nozzle *patterns = malloc((count + 1) * sizeof *patterns);
@@ -132,6 +137,8 @@ bool sp_launch_table_add(sp_launch_table *table, const sp_nozzle *nozzle, sp_err
 
 bool sp_launch_table_find(const sp_launch_table *table, const sp_nozzle *pattern, sp_launch *launch, sp_error *error)
 {
+    if (!table || !pattern)
+        return false;
     *launch = (sp_launch){.speed = sp_nozzle_speed(pattern, &table->evaluator->setup.liquid),
                           .trajectory = pattern->type->trajectory};
     if (!sp_flies_as_drops(table->evaluator, pattern) || !(launch->speed > 0))

@@ -1,16 +1,9 @@
 #include "nozzle_bodies.h"
 
 #include "launch.h"
+#include "nozzle/whole.h"
 
 #include <stdlib.h>
-
-static bool are_whole(const sp_layout *layout, sp_error *error)
-{
-    for (size_t i = 0; i < layout->count; i++)
-        if (!sp_type_is_whole(layout->nozzles[i].type, error))
-            return false;
-    return true;
-}
 
 /* `jets` for each nozzle, 0: its own number, or the simulation's. */
 static bool take_apart(const sp_evaluator *evaluator, uint64_t jets, sp_bodies *bodies, sp_error *error)
@@ -45,7 +38,7 @@ bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layou
                            sp_error *error)
 {
     *bodies = (sp_bodies){.layout = layout};
-    return are_whole(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
+    return sp_layout_is_whole(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
            take_apart(evaluator, jets, bodies, error) && drops_are_sound(evaluator, bodies->patterns, error);
 }
 

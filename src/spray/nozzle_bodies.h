@@ -15,7 +15,7 @@ typedef struct sp_bodies {
 } sp_bodies;
 
 /* Fills in *bodies, for sp_bodies_free whatever the outcome. False, with an error, for what the evaluator does not
- * take: exit speeds out of all bounds, clusters that are none. */
+ * take: exit speeds out of all bounds, nozzles that are not whole. */
 bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_bodies *bodies, sp_error *error);
 /* The same of nozzles that have this number of jets each, whatever they say. */
 bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_bodies *bodies,
