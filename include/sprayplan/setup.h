@@ -75,7 +75,7 @@ typedef struct {
     uint64_t jets;   /* per nozzle, whose patterns share them; 0: auto */
     double texel;    /* m; 0: auto. Shorter on thin parts: at most an eighth of their girth */
     sp_splat splat;
-    double accuracy; /* points of coverage, as a fraction */
+    double accuracy; /* points of coverage, as a fraction, 0 to 1 */
     uint64_t seed;
 } sp_fidelity;
 

@@ -2,6 +2,7 @@
 #include "auto_settings.h"
 #include "clock.h"
 #include "movers.h"
+#include "nozzle/whole.h"
 #include "resolution.h"
 #include "rundown.h"
 #include "spray/wet/wet.h"
@@ -19,95 +20,6 @@ bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done
 bool sp_evaluator_stage(const sp_evaluator *evaluator, const char *stage, double done, sp_error *error)
 {
     return sp_evaluator_progress(&evaluator->setup, evaluator->stage ? evaluator->stage : stage, done, error);
-}
-
-static bool in_range(double value, double low, double high)
-{
-    return value >= low && value <= high;
-}
-
-static bool check_surfaces(const sp_setup *setup, sp_error *error)
-{
-    bool clean = false;
-    for (size_t i = 0; i < setup->mesh->part_count; i++) {
-        const sp_surface *surface = &setup->surfaces[i];
-        if (!in_range(surface->restitution, 0, 1) || !in_range(surface->rebound, 0, 1))
-            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
-                           "part \"%s\": restitution %g and rebound %g found, expected 0 to 1",
-                           setup->mesh->parts[i].name, surface->restitution, surface->rebound);
-        clean = clean || surface->clean;
-    }
-    return clean || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nothing is to be cleaned: every part is an obstacle");
-}
-
-static bool check_sweep(const sp_setup *setup, sp_error *error)
-{
-    const sp_sweep *sweep = &setup->sweep;
-    double travel = sp_distance(sweep->from, sweep->to), speed = sweep->speed;
-    bool moves = false;
-    for (size_t i = 0; i < setup->mesh->part_count; i++)
-        moves = moves || setup->surfaces[i].moves;
-    if (moves != (speed != 0) || (moves && !(in_range(travel, 1e-300, 1e300) && in_range(speed, 1e-300, 1e300))))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "sweep: a way of %g m at %g m/s and %s found; expected parts that move, ends that are apart and "
-                       "a speed above 0, or nothing of these",
-                       travel, speed, moves ? "parts that move" : "no part that moves");
-    return !moves || !(setup->criterion.film > 0) ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "film: found beside a sweep, which carries it along; expected a criterion of dose");
-}
-
-static bool check_caps(const sp_setup *setup, sp_error *error)
-{
-    for (size_t i = 0; i < setup->cap_count; i++) {
-        const sp_cap *cap = &setup->caps[i];
-        if (!isfinite(sp_length(cap->point)) || !in_range(sp_length(cap->normal), 1e-300, 1e300) ||
-            !in_range(cap->radius, 1e-300, 1e300))
-            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
-                           "cap %zu: expected a finite point, a normal of some length and a radius above 0", i + 1);
-    }
-    return true;
-}
-
-bool sp_air_is_known(const sp_setup *setup)
-{
-    return in_range(setup->air.density, 0, 1e300) && in_range(setup->air.viscosity, 1e-300, 1e300) &&
-           in_range(setup->liquid.surface_tension, 1e-300, 1e300);
-}
-
-static bool check_setup(const sp_setup *setup, sp_error *error)
-{
-    const sp_criterion *criterion = &setup->criterion;
-    const sp_fidelity *fidelity = &setup->fidelity;
-    const char *wrong = NULL;
-    if (!setup->mesh || !setup->surfaces || setup->mesh->triangle_count == 0)
-        wrong = "a mesh with triangles and a surface for each of its parts";
-    else if (!in_range(setup->liquid.density, 1e-300, 1e300))
-        wrong = "a positive density of the liquid";
-    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG && !sp_air_is_known(setup))
-        wrong = "air with a density of 0 or more and a viscosity, and a surface tension of the liquid, for drag";
-    else if (!in_range(setup->gravity, 0, 1e300))
-        wrong = "a gravity of 0 or more";
-    else if (!in_range(criterion->flux, 0, 1e300) || !in_range(criterion->impact_speed, 0, 1e300) ||
-             !in_range(criterion->incidence, 0, M_PI / 2))
-        wrong = "a criterion with flux and impact speed of 0 or more and incidence of 0 to 90 deg";
-    else if (!in_range(fidelity->texel, 0, 1e300) || fidelity->reflections < -1)
-        wrong = "a texel of 0 (auto) or more and reflections of -1 (auto) or more";
-    else if (setup->unfolded && !in_range(setup->unfolded_texel, 1e-300, 1e300))
-        wrong = "a texel with files that lay the surface flat";
-    else if (!in_range(criterion->film, 0, 1e300))
-        wrong = "a criterion with a film of 0 or more";
-    else if (setup->cavity == SP_CAVITY_POINT && !isfinite(sp_length(setup->cavity_point)))
-        wrong = "a finite point of the cavity";
-    if (wrong)
-        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
-    if (criterion->film > 0 && (setup->cavity == SP_CAVITY_NONE || !(setup->gravity > 0)))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "film: found without %s; expected a cavity, which says on which side of a wall it "
-                       "runs down, and gravity",
-                       setup->gravity > 0 ? "a cavity" : "gravity");
-    return check_caps(setup, error) && check_surfaces(setup, error) && check_sweep(setup, error) &&
-           sp_geometry_is_resolved(setup, error);
 }
 
 bool sp_fail_nothing(sp_error *error)
@@ -159,7 +71,7 @@ sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own)
 
 sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error)
 {
-    if (!setup || !check_setup(setup, error))
+    if (!setup || !sp_setup_is_whole(setup, error) || (layout && !sp_layout_is_whole(layout, error)))
         return NULL;
     sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
     if (!evaluator)
@@ -211,7 +123,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
 {
     if (!fine)
         return NULL;
-    if (!in_range(texel, 1e-300, 1e300)) {
+    if (!(texel >= 1e-300 && texel <= 1e300)) {
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: a texel of %g m found, expected more than 0", texel);
         return NULL;
     }
@@ -230,12 +142,14 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
 
 bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error)
 {
+    *again = NULL;
+    if (!evaluator)
+        return false;
     const sp_fidelity *open = &evaluator->setup.fidelity, *now = &evaluator->fidelity;
     bool lines = open->trajectory == SP_TRAJECTORY_AUTO && now->trajectory == SP_TRAJECTORY_LINE;
     double texel = now->texel;
     if (shorter && !(open->texel > 0))
         texel = fmin(texel, fmax(0.5 * texel, sp_texel_of(evaluator, SP_MOST_TEXELS)));
-    *again = NULL;
     if (!lines && texel == now->texel)
         return true;
     sp_evaluator *finer = sp_evaluator_share(evaluator, texel, error);
