@@ -1,4 +1,5 @@
 #include "attainable/attainable.h"
+#include "candidates/sound_options.h"
 #include "scoring/prepare.h"
 #include "certificate/certificate.h"
 #include "forward_check.h"
@@ -53,14 +54,6 @@ static void placement_free(sp_placement *placement)
     free(placement->deadline.stages);
 }
 
-static bool are_whole(const sp_nozzle_type *const *types, size_t count, sp_error *error)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!sp_type_is_whole(types[i], error))
-            return false;
-    return true;
-}
-
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
@@ -77,11 +70,6 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "combine: found single beside a sweep, expected sum: place adds up what goods that move take from "
             "all nozzles");
-    for (size_t i = 0; i < options->mount_count; i++)
-        if (!are_whole(options->mounts[i].types, options->mounts[i].type_count, error))
-            return false;
-    if (!are_whole(options->types, options->type_count, error))
-        return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep &&
             (!sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error) ||
@@ -435,7 +423,8 @@ static bool settle(const sp_evaluator *evaluator, const sp_place_options *given,
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *given, sp_error *error)
 {
     sp_place_options settled, *options = &settled;
-    if (!evaluator || !settle(evaluator, given, &settled, error) || !check(evaluator, options, error))
+    if (!evaluator || !given || !sp_options_are_sound(given, error) || !settle(evaluator, given, &settled, error) ||
+        !check(evaluator, options, error))
         return NULL;
     sp_proposal *proposal = calloc(1, sizeof *proposal);
     if (!proposal)

@@ -11,15 +11,15 @@ extern "C" {
 
 typedef enum { SP_MOUNT_PORT, SP_MOUNT_SURFACE, SP_MOUNT_LINE, SP_MOUNT_BOX } sp_mount_kind;
 
-/* Where nozzles may be. Fields that a kind does not name are zero. */
+/* Where nozzles may be. Fields that a kind does not name are zero; no length is below that, and all are finite. */
 typedef struct {
     sp_mount_kind kind;
     char name[SP_NAME]; /* a port has one; others may, "" where not */
     size_t most;        /* nozzles that it takes besides kept ones; 0: any number. A port takes one whatever it says */
-    double cost;        /* m³/s: the water that a nozzle placed there must save to be worth its weld or fitting */
-    sp_vec3 position;   /* port, m */
-    sp_vec3 axis;       /* port, line, box: unit reference axis */
-    double tilt;        /* rad that a nozzle's axis may lean from the reference axis; π is any direction */
+    double cost; /* m³/s, 0 or more: the water that a nozzle placed there must save to be worth its weld or fitting */
+    sp_vec3 position; /* port, m */
+    sp_vec3 axis;     /* port, line, box: unit reference axis */
+    double tilt;      /* rad, [0, π], that a nozzle's axis may lean from the reference axis; π is any direction */
     double depth_from, depth_to, depth_spacing; /* port, m along its axis; all 0 without a lance */
     size_t type_count;                          /* port: types that fit; 0: all of the options' */
     const sp_nozzle_type *const *types;         /* borrowed */
@@ -70,12 +70,12 @@ typedef struct {
     double coverage;    /* asked for, share of the surface to be cleaned; where less is attainable the search aims at
                          * this share of what is */
     size_t max_nozzles; /* 0: unlimited */
-    double max_water;   /* m³/s, of water alone; INFINITY: unlimited */
+    double max_water;   /* m³/s, 0 or more, of water alone; INFINITY: unlimited */
     size_t type_count;
     const sp_nozzle_type *const *types; /* borrowed: what may be chosen */
     size_t pressure_count;
-    const double *pressures; /* Pa, borrowed */
-    double clearance;        /* m */
+    const double *pressures; /* Pa, 0 or more, borrowed */
+    double clearance;        /* m, 0 or more */
     double memory; /* bytes that all that the candidates can reach may take; 0: 1 GB. Less takes longer: what is not
                     * kept is worked out again. The answer does not depend on it, but where clusters, measured types or
                     * rotating ones are among the types, whose poses are all kept, on texels that leave room for them;
@@ -222,7 +222,8 @@ SP_API bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_
  * re-traced objective improves, then brought to what ports and types can be set to: all that is reported is of such
  * settings, as the candidates are. The error of the proposal's coverage is measured; where it is above the accuracy,
  * and auto chose the settings of the simulation, everything found is counted again by dearer ones. Deterministic.
- * Returns NULL on error, never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or
+ * Returns NULL on error, never for a target that cannot be reached. Fails with SP_ERROR_ARGUMENT where an option is
+ * none that the fields above allow, with SP_ERROR_INPUT where no mount, type or
  * pressure is given, no mounting point is inside and clear, or a kept nozzle is in a wall, outside, or in a port that
  * it does not pass. Clusters, and types that do not spray as densely all over, stay at the poses of candidates:
  * refinement moves the others about them. */

@@ -1,6 +1,9 @@
 #include "candidates/mounts.h"
 
+#include "candidates/sound_options.h"
+
 #include "deadline/deadline.h"
+#include "allowed.h"
 #include "mesh/distance.h"
 #include "mesh/grow.h"
 #include "trace/distance.h"
@@ -337,6 +340,8 @@ bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *opti
 bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_options *options, size_t *all, size_t *usable,
                            sp_error *error)
 {
+    if (!evaluator || !options || !sp_run_is_sound(&options->run, error) || !sp_mounts_are_sound(options, error))
+        return false;
     sp_sites sites;
     if (!list_sites(evaluator, options, &sites, error))
         return false;

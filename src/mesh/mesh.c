@@ -1,3 +1,4 @@
+#include "allowed.h"
 #include "mesh/allocate.h"
 #include "mesh/grow.h"
 #include "mesh/soup.h"
@@ -146,6 +147,9 @@ static bool check_input(const sp_vec3 *vertices, size_t vertex_count, const uint
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "found %zu vertices, %zu triangles, %zu parts, expected fewer than %u, %u, %u", vertex_count,
                        triangle_count, part_count, SP_NONE, SP_NONE / 3, SP_NONE);
+    if (!sp_is_listed((sp_owner){"mesh", ""}, "vertices", vertices, vertex_count, error) ||
+        !sp_is_listed((sp_owner){"mesh", ""}, "triangles", triangles, triangle_count, error))
+        return false;
     for (size_t i = 0; i < vertex_count; i++)
         if (!sp_coordinates_allowed(vertices[i]))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
