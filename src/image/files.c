@@ -5,7 +5,10 @@
 #include "mesh/file.h"
 #include "module/module.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const sp_image_files *files(sp_error *error)
 {
@@ -25,6 +28,8 @@ static bool png_possible(const char *path, int width, int height, int channels, 
 
 uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
 {
+    if (!pixels)
+        return NULL;
     const sp_image_files *images = png_possible(NULL, width, height, channels, error) ? files(error) : NULL;
     return images ? images->encode_png(pixels, width, height, channels, size, error) : NULL;
 }
@@ -39,6 +44,8 @@ static bool write_encoded(const char *path, uint8_t *bytes, size_t size, sp_erro
 
 bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
 {
+    if (!path || !pixels)
+        return false;
     size_t size = 0;
     const sp_image_files *images = png_possible(path, width, height, channels, error) ? files(error) : NULL;
     uint8_t *bytes = images ? images->encode_png(pixels, width, height, channels, &size, error) : NULL;
@@ -50,6 +57,8 @@ bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count
 {
     if (count < 1 || channels < 1)
         return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "an EXR file needs at least one part and one channel");
+    if (!path || !parts || !channel_names)
+        return false;
     for (size_t i = 0; i < count; ++i)
         if (parts[i].width < 1 || parts[i].height < 1 || parts[i].width != parts[0].width ||
             parts[i].height != parts[0].height)
@@ -62,8 +71,18 @@ bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count
     return write_encoded(path, bytes, size, error);
 }
 
+/* OpenImageIO does not say why it cannot open a file. */
+static bool can_be_opened(const char *path, sp_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read: %s", strerror(errno));
+    fclose(file);
+    return true;
+}
+
 sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error)
 {
-    const sp_image_files *images = files(error);
+    const sp_image_files *images = path && can_be_opened(path, error) ? files(error) : NULL;
     return images ? images->read(path, most_width, most_height, names, error) : (sp_image){0};
 }

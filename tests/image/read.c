@@ -129,6 +129,9 @@ static void refuse(int most_width, const char *expected)
     assert_null(sp_image_read(path, most_width, 100, names, &error).values);
     if (strncmp(error.message, expected, strlen(expected)) || strchr(error.message, '\n'))
         fail_msg("%s, expected %s", error.message, expected);
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
+    assert_string_equal(error.file, path);
+    assert_null(strstr(error.message, path)); /* which the error names beside it */
 }
 
 static void other_images_are_refused(void **state)
@@ -138,7 +141,7 @@ static void other_images_are_refused(void **state)
     const uint8_t colours[6] = {1, 2, 3, 4, 5, 6};
     sp_error error = {0};
     unlink(path);
-    refuse(100, "cannot be read: ");
+    refuse(100, "cannot be read: No such file or directory");
     write_bytes("", 0);
     refuse(100, "cannot be read: ");
     write_bytes("what is this", 12);

@@ -34,6 +34,12 @@ static void *digest(sp_error *error)
     return sp_file_sha256(at, text, error) ? (void *)at : NULL;
 }
 
+static void *image(sp_error *error)
+{
+    static const char *const names[] = {"liquid", "speed"};
+    return sp_image_read(at, 1, 1, names, error).values;
+}
+
 static void each_names_it(void **state)
 {
     (void)state;
@@ -41,8 +47,9 @@ static void each_names_it(void **state)
         const char *path;
         void *(*read)(sp_error *error);
     } cases[] = {
-        {MISSING ".yaml", scene}, {MISSING ".obj", mesh},     {MISSING ".stl", mesh},   {MISSING ".ply", mesh},
-        {MISSING ".step", mesh},  {MISSING ".json", figures}, {MISSING ".obj", digest},
+        {MISSING ".yaml", scene}, {MISSING ".obj", mesh},  {MISSING ".stl", mesh},
+        {MISSING ".ply", mesh},   {MISSING ".step", mesh}, {MISSING ".json", figures},
+        {MISSING ".obj", digest}, {MISSING ".png", image}, {MISSING ".tif", image},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         sp_error error = {0};

@@ -12,10 +12,18 @@
 namespace
 {
 
-// With the first line of what OpenImageIO says.
+// With the first line of what OpenImageIO says, less the file's name, which stands in the error by itself.
 bool fail_as(const char *path, const std::string &reason, sp_error *error)
 {
-    return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read: %s", reason.substr(0, reason.find('\n')).c_str());
+    std::string line = reason.substr(0, reason.find('\n'));
+    const std::string quoted = '"' + std::string(path) + '"', leading = std::string(path) + ": ";
+    size_t at = line.find(quoted);
+    if (at != std::string::npos)
+        line.replace(at, quoted.size(), "it");
+    at = line.find(leading);
+    if (at != std::string::npos)
+        line.erase(at, leading.size());
+    return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read: %s", line.c_str());
 }
 
 bool is_taken(const char *format)
@@ -30,10 +38,10 @@ bool has_channels(const char *path, OIIO::ImageInput *input, const char *const n
     const OIIO::ImageSpec &spec = input->spec();
     bool exr = !std::strcmp(input->format_name(), "openexr"), two = exr || !std::strcmp(input->format_name(), "tiff");
     if (spec.nchannels < 1 || spec.nchannels > (two ? 2 : 1))
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "has %d channels, expected %s", spec.nchannels,
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "has %d channels, expected %s", spec.nchannels,
                        two ? "1 or 2" : "1");
     if (exr && spec.nchannels == 2 && (spec.channelnames[0] != names[0] || spec.channelnames[1] != names[1]))
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "has channels %.40s and %.40s, expected %s and %s",
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "has channels %.40s and %.40s, expected %s and %s",
                        spec.channelnames[0].c_str(), spec.channelnames[1].c_str(), names[0], names[1]);
     return true;
 }
@@ -43,14 +51,14 @@ bool is_plain(const char *path, OIIO::ImageInput *input, int most_width, int mos
 {
     const OIIO::ImageSpec &spec = input->spec();
     if (!is_taken(input->format_name()))
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "is a %s file, expected PNG, TIFF, OpenEXR or PFM",
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "is a %s file, expected PNG, TIFF, OpenEXR or PFM",
                        input->format_name());
     if (spec.width < 1 || spec.height < 1 || spec.width > most_width || spec.height > most_height)
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "has %d x %d pixels, expected 1 x 1 to %d x %d", spec.width,
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "has %d x %d pixels, expected 1 x 1 to %d x %d", spec.width,
                        spec.height, most_width, most_height);
     if (spec.deep || spec.depth != 1 || spec.x != spec.full_x || spec.y != spec.full_y ||
         spec.width != spec.full_width || spec.height != spec.full_height)
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0,
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
                        "has pixels of several depths or a window of its own, expected a plain image");
     return true;
 }
@@ -72,7 +80,7 @@ sp_image read_pixels(const char *path, OIIO::ImageInput *input, sp_error *error)
     if (input->has_error())
         fail_as(path, input->geterror(), error);
     else
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "has several images, expected one");
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "has several images, expected one");
     return image;
 }
 
