@@ -13,7 +13,7 @@
 sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
                           sp_error *error)
 {
-    if (!mesh || !charts)
+    if (!mesh || !charts || !options)
         return NULL;
     uint32_t limit = options->page_edge ? options->page_edge : DEFAULT_PAGE_EDGE;
     if (!(options->texel > 0) || !isfinite(options->texel) || limit > LARGEST_PAGE_EDGE) {

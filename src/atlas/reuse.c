@@ -334,6 +334,11 @@ static bool build(reuse *r, const sp_unfolding *const *files, double texel)
 static sp_atlas *lay(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel, bool *crowded,
                      sp_error *error)
 {
+    if (!mesh || !files)
+        return NULL;
+    for (size_t i = 0; i < count; i++)
+        if (!files[i])
+            return NULL;
     reuse r = {.mesh = mesh, .sheet_count = count, .error = error};
     r.atlas = calloc(1, sizeof *r.atlas);
     r.sheets = calloc(count + 1, sizeof *r.sheets);
@@ -355,7 +360,7 @@ sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *file
     double own = sp_unfolding_texel(files, count, mesh);
     for (;;) {
         sp_error failure = {0};
-        bool crowded;
+        bool crowded = false;
         sp_atlas *atlas = lay(mesh, files, count, texel, &crowded, &failure);
         if (!atlas && crowded && texel > own) {
             texel = fmax(0.5 * texel, own);
@@ -369,6 +374,8 @@ sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *file
 
 sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error)
 {
+    if (!atlas)
+        return NULL;
     sp_charts *charts = calloc(1, sizeof *charts);
     if (!charts)
         return sp_fail_memory(error);

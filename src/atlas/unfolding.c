@@ -41,6 +41,8 @@ sp_unfolding *sp_unfolding_parse(const char *path, const char *text, size_t size
 
 sp_unfolding *sp_unfolding_read(const char *path, double unit, sp_error *error)
 {
+    if (!path)
+        return NULL;
     size_t size;
     char *text = sp_read_file(path, &size, error);
     locale_t c = text ? newlocale(LC_ALL_MASK, "C", (locale_t)0) : (locale_t)0;

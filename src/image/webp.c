@@ -12,7 +12,7 @@ static bool configure(WebPConfig *config)
         return false;
     config->use_sharp_yuv = 1;
     config->sns_strength = 50; /* bytes go where the eye sees them: 4 % fewer for 0.1 dB */
-    config->method = 6; /* the slowest: as sharp, of fewer bytes */
+    config->method = 6;        /* the slowest: as sharp, of fewer bytes */
     return WebPValidateConfig(config);
 }
 
@@ -26,6 +26,8 @@ static bool encode(const WebPConfig *config, WebPPicture *picture, const uint8_t
 
 uint8_t *sp_image_encode_webp(const uint8_t *pixels, int width, int height, size_t *size, sp_error *error)
 {
+    if (!pixels)
+        return NULL;
     if (width < 1 || height < 1 || width > WEBP_MAX_DIMENSION || height > WEBP_MAX_DIMENSION) {
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a picture of %d x %d pixels, expected 1 x 1 to %d x %d", width,
                 height, WEBP_MAX_DIMENSION, WEBP_MAX_DIMENSION);

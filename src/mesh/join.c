@@ -126,6 +126,8 @@ static sp_mesh *concatenate(sp_mesh *const *meshes, size_t count, sp_error *erro
 
 sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count, sp_error *error)
 {
+    if (!meshes || !transforms)
+        return NULL;
     sp_mesh **moved = calloc(count + 1, sizeof *moved);
     if (!moved)
         return sp_fail_memory(error);

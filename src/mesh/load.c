@@ -149,6 +149,8 @@ static sp_mesh *read_mesh(read_function *read, const char *path, char *text, siz
 
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
 {
+    if (!path)
+        return NULL;
     if (!is_unit(path, unit, error))
         return NULL;
     if (sp_cad_kind_of(path) != SP_CAD_NONE) {
@@ -163,6 +165,8 @@ sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
 
 sp_mesh *sp_mesh_load_stream(FILE *stream, const char *name, double unit, sp_error *error)
 {
+    if (!stream || !name)
+        return NULL;
     size_t size;
     char *text = is_unit(name, unit, error) ? read_stream(stream, name, &size, error) : NULL;
     read_function *read = text ? reader_of(name, text, size, error) : NULL;

@@ -40,6 +40,8 @@ static void add_up(const sp_mesh *mesh, double *volumes)
 
 bool sp_mesh_volumes(const sp_mesh *mesh, double *volumes, sp_error *error)
 {
+    if (!mesh)
+        return false;
     sp_half_edges edges = {0};
     bool *open = calloc(mesh->part_count + 1, sizeof *open);
     int *balance = calloc(mesh->part_count + 1, sizeof *balance);

@@ -62,6 +62,8 @@ static bool write_in_c_locale(FILE *file, const sp_mesh *mesh, sp_error *error)
 
 bool sp_mesh_write_obj(const sp_mesh *mesh, const char *path, sp_error *error)
 {
+    if (!mesh || !path)
+        return false;
     FILE *file = fopen(path, "wb");
     if (!file)
         return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be written: %s", strerror(errno));

@@ -3,6 +3,8 @@
 #include "layers.h"
 #include "scaled_files.h"
 
+#include "result/design.h"
+
 #include <sprayplan/image.h>
 #include <sprayplan/report.h>
 
@@ -56,6 +58,8 @@ bool sp_coverage_png(const sp_design *design, const sp_colour_scale *scale, cons
 
 bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design) || !path)
+        return false;
     sp_colour_scale scale = sp_colour_scale_of(design, 1, (sp_picture_style){0});
     return sp_coverage_png(design, &scale, path, error);
 }
@@ -104,6 +108,8 @@ static bool write_parts(const sp_layers *layers, const sp_design *design, const 
 
 bool sp_report_deposits_exr(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design) || !path)
+        return false;
     sp_layers layers;
     if (!sp_layers_create(&layers, design->evaluator, error))
         return false;
@@ -124,6 +130,8 @@ static void chart_colour(uint32_t chart, uint8_t rgb[3])
 
 uint8_t *sp_report_charts(const sp_atlas *atlas, size_t page, sp_error *error)
 {
+    if (!atlas)
+        return NULL;
     size_t edge = atlas->page_edge;
     uint8_t *pixels = malloc(3 * edge * edge + 1);
     if (!pixels)

@@ -5,6 +5,8 @@
 #include "scaled_files.h"
 #include "surface.h"
 
+#include "result/design.h"
+
 #include <sprayplan/image.h>
 #include <sprayplan/report.h>
 
@@ -243,6 +245,8 @@ bool sp_model_glb(const sp_design *design, const sp_colour_scale *scale, const c
 
 bool sp_report_model_glb(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design) || !design->layout || !path)
+        return false;
     sp_colour_scale scale = sp_colour_scale_of(design, 1, (sp_picture_style){0});
     return sp_model_glb(design, &scale, path, error);
 }

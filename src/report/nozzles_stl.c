@@ -60,6 +60,8 @@ static void put_nozzle(sp_text *bytes, const sp_setup *setup, const sp_nozzle_bo
 
 bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!design || !design->evaluator || !design->layout || !path)
+        return false;
     const sp_setup *setup = sp_evaluator_setup(design->evaluator);
     sp_nozzle_body body = sp_nozzle_body_create(setup);
     sp_text bytes = {0};

@@ -6,6 +6,8 @@
 #include "page.h"
 #include "render.h"
 
+#include "result/design.h"
+
 #include <sprayplan/image.h>
 
 #include <stdlib.h>
@@ -218,6 +220,8 @@ static double at_full_size(double smaller, double half_of_it)
 
 bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *error)
 {
+    if (!sp_result_is_whole(result, error))
+        return false;
     const sp_design *first = NULL;
     size_t drawn = 0;
     for (size_t i = 0; i < result->design_count; ++i)

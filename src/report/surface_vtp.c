@@ -2,6 +2,8 @@
 #include "surface.h"
 #include "vtp.h"
 
+#include "result/design.h"
+
 #include <sprayplan/report.h>
 
 #include <stdlib.h>
@@ -161,6 +163,8 @@ static bool write(const drawing *d, const char *path, sp_error *error)
 
 bool sp_report_surface_vtp(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design) || !path)
+        return false;
     sp_layers layers = {0};
     drawing d = {.evaluator = design->evaluator};
     bool done = sp_layers_create(&layers, design->evaluator, error);

@@ -2,6 +2,8 @@
 #include "channels.h"
 #include "vtp.h"
 
+#include "result/design.h"
+
 #include <sprayplan/report.h>
 
 static double in_turn(sp_vec3 v, int component)
@@ -46,6 +48,8 @@ static double channel_of(const void *of, int which, size_t patch, int component)
 
 bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design) || !path)
+        return false;
     enum { OWN = 3 };
     sp_vtp_array arrays[OWN + SP_CHANNELS] = {{"normal", SP_VTP_FLOAT32, 3, normal_of, 0},
                                               {"part", SP_VTP_INT32, 1, part_of, 0},

@@ -58,6 +58,8 @@ static bool add_tile(const sp_evaluator *evaluator, int column, int row, int wid
 
 bool sp_report_wet_png(const sp_evaluator *evaluator, const char *path, sp_error *error)
 {
+    if (!evaluator || !path)
+        return false;
     enum { WIDTH = GAP + SP_VIEWPOINTS * (TILE + GAP), HEIGHT = GAP + ROWS * (TILE + GAP) };
     uint8_t *picture = malloc((size_t)3 * WIDTH * HEIGHT);
     if (!picture)

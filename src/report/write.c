@@ -121,6 +121,8 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)
 {
+    if (!result || !output)
+        return false;
     bool compared = strcmp(result->command, "compare") == 0;
     const sp_design *main = compared ? NULL : main_design(result);
     return write_text(output, "result.json", sp_result_json(result, error), error) &&

@@ -154,12 +154,17 @@ static char *sheets_csv(const sp_fitting_sheet *const *sheets, const char *const
 
 char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error)
 {
-    return sheets_csv(&sheet, NULL, 1, error);
+    return sheet ? sheets_csv(&sheet, NULL, 1, error) : NULL;
 }
 
 char *sp_all_nozzles_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
                          sp_error *error)
 {
+    if (!sheets || !layouts)
+        return NULL;
+    for (size_t i = 0; i < count; ++i)
+        if (!sheets[i])
+            return NULL;
     return sheets_csv(sheets, layouts, count, error);
 }
 

@@ -1,4 +1,5 @@
 /* From designs to their figures. */
+#include "design.h"
 #include "figures.h"
 #include "growing_text.h"
 
@@ -334,8 +335,24 @@ static double most_attained(const sp_result *result, size_t design)
     return most;
 }
 
+bool sp_result_is_whole(const sp_result *result, sp_error *error)
+{
+    if (!result)
+        return false;
+    for (size_t i = 0; i < result->design_count; ++i) {
+        const sp_design *design = &result->designs[i];
+        if (design->evaluator ? !design->layout || !design->coverage : !design->figures)
+            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                           "design %s: found without %s, expected layout and coverage on an evaluator, or figures",
+                           design->name, design->evaluator ? "layout or coverage" : "evaluator and figures");
+    }
+    return true;
+}
+
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
 {
+    if (!sp_result_is_whole(result, error))
+        return NULL;
     sp_figures *figures = calloc(result->design_count + 1, sizeof *figures);
     if (!figures)
         return sp_fail_memory(error);

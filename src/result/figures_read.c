@@ -460,6 +460,8 @@ sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error)
     struct stat status;
     size_t size;
     *count = 0;
+    if (!path)
+        return NULL;
     if (stat(path, &status) == 0 && (!S_ISREG(status.st_mode) || status.st_size > LARGEST_FILE)) {
         sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
                 LARGEST_FILE >> 20);

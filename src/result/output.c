@@ -75,6 +75,8 @@ static bool open_folder(sp_output *output, sp_error *error)
 
 sp_output *sp_output_open(const char *directory, sp_error *error)
 {
+    if (!directory)
+        return NULL;
     sp_output *output = calloc(1, sizeof *output);
     if (!output)
         return sp_fail_memory(error);
@@ -92,6 +94,8 @@ sp_output *sp_output_open(const char *directory, sp_error *error)
 
 bool sp_output_protect(sp_output *output, const char *path, sp_error *error)
 {
+    if (!output || !path)
+        return false;
     struct stat status;
     if (stat(path, &status) != 0)
         return true;
@@ -105,6 +109,8 @@ bool sp_output_protect(sp_output *output, const char *path, sp_error *error)
 
 bool sp_output_supersede(sp_output *output, sp_error *error)
 {
+    if (!output)
+        return false;
     int file = openat(output->staging.folder, "supersedes", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0)
         return sp_fail(error, SP_ERROR_FILE, output->directory, 0, 0, "cannot be written to: %s", strerror(errno));
@@ -177,12 +183,16 @@ static sp_output_entry *entry_of(sp_output *output, const char *name, sp_error *
 
 const char *sp_output_path(sp_output *output, const char *name, sp_error *error)
 {
+    if (!output || !name)
+        return NULL;
     const sp_output_entry *entry = entry_of(output, name, error);
     return entry ? entry->temporary : NULL;
 }
 
 bool sp_output_may_replace(sp_output *output, const char *name, bool force, sp_error *error)
 {
+    if (!output || !name)
+        return false;
     const sp_output_entry *entry = entry_of(output, name, error);
     sp_seal seal = entry ? sp_seal_check(output->folder, name, error) : SP_SEAL_UNKNOWN;
     if (seal == SP_SEAL_BROKEN && !force)
@@ -195,6 +205,8 @@ bool sp_output_may_replace(sp_output *output, const char *name, bool force, sp_e
 
 bool sp_output_scene(sp_output *output, const char *name, const char *text, bool force, sp_error *error)
 {
+    if (!text)
+        return false;
     char *sealed = sp_output_may_replace(output, name, force, error) ? sp_seal_text(text, error) : NULL;
     bool good = sealed && sp_output_text(output, name, sealed, error);
     free(sealed);
@@ -220,6 +232,8 @@ void sp_output_tell(const sp_output *output, sp_error *error)
 
 bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error)
 {
+    if (!bytes)
+        return false;
     const char *path = sp_output_path(output, name, error);
     if (path && sp_write_file(path, bytes, size, error))
         return true;
@@ -229,6 +243,8 @@ bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, siz
 
 bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error)
 {
+    if (!text)
+        return false;
     return sp_output_bytes(output, name, text, strlen(text), error);
 }
 

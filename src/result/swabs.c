@@ -1,4 +1,6 @@
 /* The worst places of a design: where to look, or to take a sample, first. */
+#include "design.h"
+
 #include <sprayplan/result.h>
 
 #include <stdlib.h>
@@ -121,6 +123,8 @@ static void choose(const sp_design *design, const candidate *list, size_t all, d
 
 bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error)
 {
+    if (!sp_design_is_evaluated(design))
+        return false;
     sp_vec3 low, high;
     double least = APART * sp_mesh_box(sp_evaluator_setup(design->evaluator)->mesh, &low, &high);
     size_t all;

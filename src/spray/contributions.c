@@ -118,6 +118,8 @@ static double lost_without(const shares *each, size_t nozzle, const sp_coverage 
 sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
                                           const sp_coverage *coverage, sp_error *error)
 {
+    if (!evaluator || !layout || !coverage)
+        return NULL;
     sp_contributions *made = calloc(1, sizeof *made);
     if (!made)
         return sp_fail_memory(error);

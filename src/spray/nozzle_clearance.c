@@ -71,6 +71,8 @@ static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp
 
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)
 {
+    if (!evaluator || !nozzle)
+        return false;
     sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
     sp_bodies bodies;
     bool done = sp_bodies_create(evaluator, &one, &bodies, error);

@@ -62,6 +62,8 @@ static bool is_rinsed(const sp_reference *reference, const sp_point *point)
 bool sp_reference_judge(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
                         sp_error *error)
 {
+    if (!reference || !points)
+        return false;
     if (!sp_judge_sprayed(reference, points, count, covered, error))
         return false;
     for (size_t i = 0; reference->walls && i < count; i++)

@@ -29,6 +29,8 @@ static bool create_film(sp_runoff *runoff, sp_error *error)
 
 sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error)
 {
+    if (!walls)
+        return NULL;
     bool film = walls->rundown && walls->rundown->walls == walls;
     bool dose = walls->movers && walls->setup.criterion.flux > 0;
     if (!film && !dose) {

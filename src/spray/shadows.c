@@ -185,6 +185,8 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
 bool sp_shadow_numbers(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_shadow *shadows,
                        size_t count, uint32_t *numbers, sp_error *error)
 {
+    if (!evaluator || !coverage || (count && !shadows))
+        return false;
     size_t patches = evaluator->patches.count;
     bool *visited = malloc(patches + 1);
     uint32_t *queue = malloc((patches + 1) * sizeof *queue);

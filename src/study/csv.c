@@ -13,6 +13,8 @@ static void add_numbers(sp_text *text, const double *values, size_t count)
 
 char *sp_study_csv(const sp_study *study, sp_error *error)
 {
+    if (!study)
+        return NULL;
     sp_text text = {0};
     sp_text_add(&text, "evaluator,trajectory,reflections,jets_per_nozzle,texel_m,chosen,texels,coverage,error,"
                        "two_standard_errors,misjudged,prepare_s,evaluate_s,prepare_cpu_s,evaluate_cpu_s,memory_bytes,"
@@ -36,6 +38,8 @@ char *sp_study_csv(const sp_study *study, sp_error *error)
 
 char *sp_study_place_csv(const sp_study *study, sp_error *error)
 {
+    if (!study)
+        return NULL;
     sp_text text = {0};
     sp_text_add(&text, "trajectory,refined,shift,texel_m,limited,ended_early,reached,nozzles,water_l_min,coverage,"
                        "confirmed,two_standard_errors,seconds,cpu_s,limit_s,memory_bytes\n");

@@ -151,6 +151,8 @@ static bool put_grid(json_t *object, const sp_study *study)
 
 char *sp_study_json(const sp_study *study, const char *scene, sp_error *error)
 {
+    if (!study || !scene)
+        return NULL;
     json_t *object = json_object();
     char *name = sp_text_utf8(scene);
     bool good = name && put(object, "sprayplan", json_string(SP_VERSION)) &&

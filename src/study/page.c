@@ -133,6 +133,8 @@ static void add_notes(sp_text *text, const sp_study *study)
 
 char *sp_study_html(const sp_study *study, const char *scene, sp_error *error)
 {
+    if (!study || !scene)
+        return NULL;
     char *name = sp_text_utf8(scene);
     if (!name)
         return sp_fail_memory(error);

@@ -197,7 +197,7 @@ static bool work(sp_studying *studying, const sp_place_options *place, sp_study 
 sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const sp_place_options *place,
                           const sp_study_options *options, sp_error *error)
 {
-    if (!setup || !layout)
+    if (!setup || !layout || !options)
         return NULL;
     if (layout->count == 0 && !place)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -86,6 +86,8 @@ static void add_places(sp_text *text, const sp_study *study)
 
 char *sp_study_text(const sp_study *study, sp_error *error)
 {
+    if (!study)
+        return NULL;
     sp_text text = {0};
     if (study->run_count) {
         add_runs(&text, study);

@@ -140,6 +140,8 @@ static sp_mesh *make_mesh(const char *path, const sp_cad_stream *stream, sp_cad_
 sp_mesh *sp_cad_load(const char *path, double unit, const sp_cad_options *options, sp_cad_account *account,
                      sp_error *error)
 {
+    if (!path || !options)
+        return NULL;
     double size = 0;
     sp_cad_account own;
     if (!check(path, unit, options, &size, error))

@@ -24,6 +24,8 @@ static bool diagnose_surface(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, 
 bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error)
 {
     *diagnosis = (sp_mesh_diagnosis){0};
+    if (!mesh)
+        return false;
     diagnosis->crack = SP_CRACK * sp_mesh_box(mesh, &diagnosis->minimum, &diagnosis->maximum);
     diagnosis->area = sp_mesh_area(mesh);
     return diagnose_surface(mesh, diagnosis, error) && sp_diagnose_triangles(mesh, diagnosis, error);

@@ -170,6 +170,8 @@ static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
 sp_mesh *sp_mesh_repair(const sp_mesh *mesh, const bool *preferred, sp_repair_account *account, sp_error *error)
 {
     *account = (sp_repair_account){0};
+    if (!mesh)
+        return NULL;
     mending m = {.preferred = preferred, .account = account, .diagnosed = true};
     bool good = sp_mesh_diagnose(mesh, &account->before, error) && (m.mesh = cleared(mesh, error));
     m.diagnosis = account->before;

@@ -1,6 +1,7 @@
 /* The report as one self-contained page: nothing fetched, and all but the viewer there without its script. */
 #include "report/page.h"
 #include "report/viewer/live.h"
+#include "result/design.h"
 
 #include <sprayplan/sprayplan.h>
 
@@ -320,5 +321,7 @@ char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error)
 
 char *sp_report_html(const sp_result *result, sp_error *error)
 {
+    if (!sp_result_is_whole(result, error))
+        return NULL;
     return sp_page_html(result, SP_PAGE_MOST_DRAWN, error);
 }

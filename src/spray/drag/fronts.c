@@ -299,6 +299,8 @@ static bool make(sp_fronts *fronts, sp_error *error)
 
 sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error)
 {
+    if (!drag)
+        return NULL;
     sp_fronts *fronts = calloc(1, sizeof *fronts);
     if (!fronts)
         return sp_fail_memory(error);
