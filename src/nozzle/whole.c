@@ -113,6 +113,9 @@ static bool has_type(const sp_nozzle *nozzle, sp_error *error)
 bool sp_nozzle_is_whole(const sp_nozzle *nozzle, sp_error *error)
 {
     const sp_owner owner = {"nozzle", nozzle->name};
+    if (!memchr(nozzle->name, 0, SP_NAME))
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "nozzle %.*s: expected a name that ends", SP_NAME - 1,
+                       nozzle->name);
     if (!has_type(nozzle, error) || !sp_type_is_whole(nozzle->type, error))
         return false;
     const sp_limit limits[] = {

@@ -107,6 +107,7 @@ static void nozzles_are_refused(void **state)
     NOZZLE("N1: speed", g->nozzle.speed = NAN);
     NOZZLE("N1: speed", g->nozzle.speed = -3);
     NOZZLE("N1: roll", g->nozzle.roll = NAN);
+    NOZZLE("expected a name that ends", memset(g->nozzle.name, 'x', SP_NAME));
     NOZZLE("layout: nozzles", g->layout.nozzles = NULL);
 }
 
