@@ -334,11 +334,6 @@ static bool build(reuse *r, const sp_unfolding *const *files, double texel)
 static sp_atlas *lay(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel, bool *crowded,
                      sp_error *error)
 {
-    if (!mesh || !files)
-        return NULL;
-    for (size_t i = 0; i < count; i++)
-        if (!files[i])
-            return NULL;
     reuse r = {.mesh = mesh, .sheet_count = count, .error = error};
     r.atlas = calloc(1, sizeof *r.atlas);
     r.sheets = calloc(count + 1, sizeof *r.sheets);
@@ -357,6 +352,11 @@ static sp_atlas *lay(const sp_mesh *mesh, const sp_unfolding *const *files, size
 sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
                             sp_error *error)
 {
+    if (!mesh || !files)
+        return NULL;
+    for (size_t i = 0; i < count; i++)
+        if (!files[i])
+            return NULL;
     double own = sp_unfolding_texel(files, count, mesh);
     for (;;) {
         sp_error failure = {0};

@@ -55,7 +55,7 @@ static void meshes_keep_it(void **state)
     KEEPS(sp_mesh_join, missing, as_they_are, 2, &error);
     KEEPS(sp_mesh_join, missing, nothing, 1, &error);
     KEEPS(sp_mesh_diagnose, nothing, &diagnosis, &error);
-    KEEPS(sp_mesh_repair, nothing, &account, &error);
+    KEEPS(sp_mesh_repair, nothing, nothing, &account, &error);
     KEEPS(sp_mesh_write_obj, nothing, FILE_PATH, &error);
     KEEPS(sp_mesh_write_obj, r->mesh, nothing, &error);
     KEEPS(sp_mesh_volumes, nothing, volumes, &error);
@@ -106,12 +106,14 @@ static void evaluators_keep_it(void **state)
     const sp_launch launch = {.speed = 10};
     const sp_vec3 place = {1, 1, 1}, down = {0, 0, -1};
     sp_track_gaps gaps;
+    double beyond;
     KEEPS(sp_evaluator_create, nothing, &error);
     KEEPS(sp_evaluator_create_for, nothing, nothing, &error);
     KEEPS(sp_evaluator_resample, nothing, 0.1, &error);
     KEEPS(sp_evaluator_again, nothing, true, &again, &error);
     assert_null(again);
     KEEPS(sp_runoff_create, nothing, &error);
+    KEEPS(sp_evaluator_beyond_caps, nothing, &beyond, &error);
     KEEPS(sp_evaluator_admits, nothing, &untyped, &error);
     KEEPS(sp_evaluator_admits, r->evaluator, nothing, &error);
     KEEPS(sp_evaluator_admits, r->evaluator, &untyped, &error);

@@ -57,6 +57,8 @@ sp_cap_use sp_evaluator_cap_use(const sp_evaluator *evaluator, size_t cap)
 
 bool sp_evaluator_beyond_caps(const sp_evaluator *evaluator, double *area, sp_error *error)
 {
+    if (!evaluator)
+        return false;
     const sp_wet *wet = evaluator->wet;
     sp_setup open = evaluator->setup;
     open.cap_count = 0;
