@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define NUMBERS_MOST 2e7 /* that may be kept, of 8 bytes */
+#define SLOW 10          /* times as long as others poses take that no sweep knows, or whose liquid is followed */
 
 /* Of a mounting point, every pose that its mount allows and that does not stand in a wall there. */
 static bool list_site(const sp_search *search, uint32_t site, sp_poses_alone *poses, sp_error *error)
@@ -39,7 +40,8 @@ bool sp_poses_alone_list(const sp_search *search, const sp_evaluator *evaluator,
 {
     size_t all = search->candidates->pose_start[search->sites->count];
     *poses = (sp_poses_alone){.evaluator = evaluator, .patches = sp_evaluator_patches(evaluator)->count};
-    if (all > most || 3 * (double)(all + 2) * (double)poses->patches > NUMBERS_MOST)
+    double each = search->footprints || search->runoffs ? SLOW : 1;
+    if (all > most || 3 * each * (double)(all + 2) * (double)poses->patches > NUMBERS_MOST)
         return true;
     poses->poses = malloc((all + 1) * sizeof *poses->poses);
     poses->alone = calloc(all + 1, sizeof *poses->alone);

@@ -38,8 +38,8 @@ static void set_ports(job *j, uint64_t seed)
     }
 }
 
-/* A room of its own for each seed: of the flux asked for, whether one nozzle alone must bring it, and what it asks of
- * incidence, and angles. */
+/* A room of its own for each seed: of the flux asked for, whether one nozzle alone must bring it, whether film rinses
+ * too, and of incidence. */
 static void open_ports(job *j, uint64_t seed)
 {
     sp_error error = {0};
@@ -50,6 +50,7 @@ static void open_ports(job *j, uint64_t seed)
     set_ports(j, seed);
     j->room.setup.criterion.flux = (seed % 3) * 2 * LITRES_PER_MINUTE;
     j->room.setup.criterion.combine = seed % 5 == 0 ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+    j->room.setup.criterion.film = seed % 7 == 0 ? 2 * LITRES_PER_MINUTE : 0;
     j->room.setup.criterion.incidence = seed % 2 ? 60 * DEGREE : 90 * DEGREE;
     j->types[0] = room_cone("wide", 100 * DEGREE, 5 + 6 * instance_random(&seed));
     j->types[1] = room_cone("narrow", 60 * DEGREE, 3 + 3 * instance_random(&seed));
