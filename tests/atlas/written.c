@@ -399,7 +399,7 @@ static void refuses_what_breaks_an_atlas(void **state)
          "lies on another", 14},
         {"vt .05 .05\nvt .45 .05\nvt .05 .45\nvt .50 .55\nvt .98 .55\nvt .50 .95\nf 1/1 2/2 3/3\nf 4/4 5/5 6/6\n",
          "lengths", 14},
-        {"vt .05 .05\nvt .45 .05\nvt .05 .45\nvt .46 .05\nvt .86 .05\nvt .46 .45\nf 1/1 2/2 3/3\nf 4/4 5/5 6/6\n",
+        {"vt .05 .05\nvt .45 .05\nvt .05 .45\nvt .4501 .05\nvt .8501 .05\nvt .4501 .45\nf 1/1 2/2 3/3\nf 4/4 5/5 6/6\n",
          "without a pixel between", 14},
         {"v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv .6 .8 0\nvt .5 .5\nvt .9 .5\nvt .5 .9\nvt .1 .5\nvt .5 .1\n"
          "f 1/1 2/2 3/3\nf 1/1 3/3 9/4\nf 1/1 9/4 10/5\nf 1/1 10/5 11/2\nf 1/1 11/2 12/3\n",
@@ -435,6 +435,26 @@ static void refuses_what_breaks_an_atlas(void **state)
     }
 }
 
+/* 25 mm between two charts: no pixel of 100 mm, nor one of 50 or 25 mm wherever it begins. */
+static void goes_below_too_long_a_texel(void **state)
+{
+    (void)state;
+    char text[1024];
+    snprintf(text, sizeof text, "%s%s", two_triangles,
+             "vt .05 .05\nvt .45 .05\nvt .05 .45\nvt .46 .05\nvt .86 .05\nvt .46 .45\nf 1/1 2/2 3/3\nf 4/4 5/5 6/6\n");
+    write_scratch(text);
+    sp_error error = {0};
+    sp_mesh *mesh = sp_mesh_load(scratch, 1, &error);
+    assert_non_null(mesh);
+    sp_atlas *atlas = sp_atlas_reuse(mesh, scratch, 0.1, &error);
+    assert_non_null(atlas);
+    assert_int_equal(atlas->chart_count, 2);
+    assert_true(atlas->texel <= 0.025 * (1 + 1e-12) && atlas->texel > 0.1 / 16);
+    sp_atlas_destroy(atlas);
+    sp_mesh_destroy(mesh);
+    unlink(scratch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -445,6 +465,7 @@ int main(void)
         cmocka_unit_test(pages_are_used),
         cmocka_unit_test(charts_suit_the_page),
         cmocka_unit_test(refuses_what_breaks_an_atlas),
+        cmocka_unit_test(goes_below_too_long_a_texel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
