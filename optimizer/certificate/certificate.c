@@ -159,6 +159,7 @@ static bool certify(sp_certifying *c, sp_front *front, sp_certificate *certifica
     bool known;
     if (!sp_bound_by_every_layout(c, &known, error) || (!known && !lower_all(c, water, area, error)))
         return false;
+    certificate->every_layout = known;
     if (!c->bound.proofs)
         return true;
     conclude(c, front, certificate);

@@ -81,7 +81,9 @@ static bool put_certificate(json_t *root, const sp_certificate *found, bool cost
 {
     json_t *certificate = json_object();
     bool done =
-        sp_put_text(certificate, "method", "lagrangian dual, layouts of few nozzles one by one") &&
+        sp_put_text(certificate, "method",
+                    found->every_layout ? "every layout of the candidates"
+                                        : "lagrangian dual, layouts of few nozzles one by one") &&
         sp_put_real(certificate, "coverage", found->counted / found->whole) &&
         sp_put_real(certificate, bound_keys[costly][0], found->area_bound / found->whole) &&
         sp_put_real(certificate, bound_keys[costly][1], 6e4 * found->water_bound) &&

@@ -120,7 +120,7 @@ static void expect_closed(const job *j, const counted *layouts, const sp_proposa
 {
     const sp_certificate *certificate = &proposal->certificate;
     double flow = proposal->coverage->flow;
-    assert_true(certificate->computed);
+    assert_true(certificate->computed && certificate->every_layout);
     assert_true(certificate->area_bound >= most_within(j, layouts, flow) * (1 - EQUAL));
     assert_true(certificate->area_bound <= most_within(j, layouts, 1.001 * flow) * (1 + 1e-6));
     assert_true(certificate->water_bound <= least_for(j, layouts, certificate->counted) * (1 + EQUAL));
