@@ -69,6 +69,8 @@ void cli_unknown_topic(const char *text);
 /* The stages of a command, in order, NULL behind the last. One may be of several that the library names, as "exchange|
  * front". From `first` on, `each` of them come `rounds` times. Kept. */
 void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds);
+/* Those of commands that evaluate layouts as they are; the report's is the last, and comes once. */
+extern const char *const cli_evaluation_stages[];
 void cli_progress_rounds(size_t rounds);
 /* Which round begins, from 0. */
 void cli_progress_round(size_t round);

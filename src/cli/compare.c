@@ -177,13 +177,7 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     static const char *const files[] = {"result.json", "report.html", "nozzles-all.csv", NULL};
     if (!cli_output_ready(options, NULL, files, error))
         return false;
-    static const char *const stages[] = {"geometry",
-                                         "accelerator|wet sides|atlas|settings",
-                                         "simulate|jets|patches|film|liquid",
-                                         "measured error|borderline|bound on lines",
-                                         "report",
-                                         NULL};
-    cli_progress_plan(stages, 0, 4, (size_t)options->input_count);
+    cli_progress_plan(cli_evaluation_stages, 0, 4, (size_t)options->input_count);
     for (int i = 0; i < options->input_count; i++) {
         cli_progress_round((size_t)i);
         if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error) ||

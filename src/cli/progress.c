@@ -57,6 +57,13 @@ void cli_progress_end(void)
     bar.on_screen = false;
 }
 
+const char *const cli_evaluation_stages[] = {"geometry",
+                                             "accelerator|wet sides|atlas|settings",
+                                             "simulate|jets|patches|film|liquid",
+                                             "measured error|borderline|bound on lines",
+                                             "report",
+                                             NULL};
+
 void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds)
 {
     size_t count = 0;

@@ -32,12 +32,6 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
 
 int cli_simulate(const cli_options *options)
 {
-    static const char *const stages[] = {"geometry",
-                                         "accelerator|wet sides|atlas|settings",
-                                         "simulate|jets|patches|film|liquid",
-                                         "measured error|borderline|bound on lines",
-                                         "report",
-                                         NULL};
-    cli_progress_plan(stages, 0, 0, 1);
+    cli_progress_plan(cli_evaluation_stages, 0, 0, 1);
     return cli_with_scene(options, true, simulate);
 }
