@@ -54,7 +54,8 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
     add_percent(text, found->area_bound / found->whole, true);
     sp_text_add(text, ": at most ");
     add_percent(text, found->gap, true);
-    sp_text_add(text, " of what is possible is left.</p>\n");
+    sp_text_add(text, " of what is possible is left.%s</p>\n",
+                found->every_layout ? " Every layout of the candidates was looked at." : "");
     add_every_aim(proposal, text, only);
 }
 
@@ -95,13 +96,13 @@ void sp_page_certificate(const sp_page *page, sp_text *text)
         add_proofs(page, text);
     else
         add_proof(page->result->proposal, text, true);
-    sp_text_add(text,
-                "<p class=\"note\">%sProved by Lagrangian duality for every choice "
-                "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
-                "are those of the search and may be coarser than those that the other figures are counted on; "
-                "liquid that is thrown back from walls does not count here.</p></section>\n",
-                page->costly
-                    ? "Where mounts cost something, a limit on water does not limit what is proved here: layouts "
-                      "beyond it are among those that do no better. "
-                    : "");
+    sp_text_add(
+        text,
+        "<p class=\"note\">%sProved, by Lagrangian duality where not every layout was looked at, for every choice "
+        "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
+        "are those of the search and may be coarser than those that the other figures are counted on; "
+        "liquid that is thrown back from walls does not count here.</p></section>\n",
+        page->costly ? "Where mounts cost something, a limit on water does not limit what is proved here: layouts "
+                       "beyond it are among those that do no better. "
+                     : "");
 }
