@@ -183,7 +183,11 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
 /* How much of it round-off could turn, into coverage->borderline, where the inverse evaluator counted it. */
 bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
-/* That, how far it is off, into coverage->measured, and of lines what is proved of that, into coverage->line_error.
+/* Whether flights are along lines and something can be proved of what that changes; that, into coverage->line_error,
+ * where it can be. */
+bool cli_bounds_lines(const sp_evaluator *evaluator);
+bool cli_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
+/* Both, and how far it is off, into coverage->measured.
  * False, and the error kept, given NULL. */
 bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 

@@ -282,11 +282,30 @@ static bool measure_one(const sp_evaluator *evaluator, const sp_layout *layout, 
     return cli_measure(evaluator, layout, coverage, error);
 }
 
+/* What the search, which measured its error, does not tell of a proposal: what round-off could turn, and what is proved
+ * of lines. `late` becomes what there was no time for. */
+static bool finish_measuring(const sp_evaluator *evaluator, const sp_proposal *proposal, const char **late,
+                             sp_error *error)
+{
+    bool lines = cli_bounds_lines(evaluator);
+    if (*late || is_over()) {
+        *late = lines ? "what round-off could turn, the bound on the error of lines" : "what round-off could turn";
+        return true;
+    }
+    if (!cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error))
+        return false;
+    if (!lines || !is_over())
+        return cli_bound_lines(evaluator, proposal->layout, proposal->coverage, error);
+    *late = "the bound on the error of lines";
+    return true;
+}
+
 /* How far the coverage of the other layouts is off: the proposals' is measured. */
 static bool measure_errors(const cli_scene *opened, placement *found, sp_error *error)
 {
     const sp_layout *own = sp_scene_layout(opened->scene);
-    bool alternatives = sp_scene_alternative_count(opened->scene) > 0, over = false;
+    const char *late = NULL;
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
     bool good = !found->manual ||
                 measure_one(own_evaluator(opened, found), own, found->manual, "the scene's own nozzles", found, error);
     for (size_t i = 0; good && i < found->count; i++) {
@@ -294,11 +313,10 @@ static bool measure_errors(const cli_scene *opened, placement *found, sp_error *
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
         good = (alternatives || measure_one(evaluator, proposal->greedy, proposal->greedy_coverage,
                                             "the layout before refinement", found, error));
-        over = over || is_over();
-        good = good && (over || cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error));
+        good = good && finish_measuring(evaluator, proposal, &late, error);
     }
-    if (over)
-        cli_leave_out(&found->left_out, "what round-off could turn");
+    if (late)
+        cli_leave_out(&found->left_out, "%s", late);
     return good;
 }
 

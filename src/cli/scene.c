@@ -79,12 +79,16 @@ bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout,
            sp_find_borderline(evaluator, layout, coverage, NULL, &coverage->borderline, error);
 }
 
-/* What is proved of the error of flying along lines, where they are flown though there is gravity. */
-static bool bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+bool cli_bounds_lines(const sp_evaluator *evaluator)
 {
     const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
     bool moves = sp_evaluator_setup(evaluator)->sweep.speed > 0; /* of what passes by nothing is proved */
-    if (fidelity->trajectory != SP_TRAJECTORY_LINE || fidelity->method != SP_METHOD_INVERSE || moves)
+    return fidelity->trajectory == SP_TRAJECTORY_LINE && fidelity->method == SP_METHOD_INVERSE && !moves;
+}
+
+bool cli_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+{
+    if (!cli_bounds_lines(evaluator))
         return true;
     coverage->line_error.known = sp_bound_lines(evaluator, layout, &coverage->line_error.share, NULL, error);
     return coverage->line_error.known;
@@ -95,7 +99,8 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
     uint64_t seed = sp_evaluator_fidelity(evaluator)->seed;
     return coverage &&
            sp_measure_error(evaluator, layout, coverage, SP_TRAJECTORY_AUTO, seed, &coverage->measured, error) &&
-           cli_find_borderline(evaluator, layout, coverage, error) && bound_lines(evaluator, layout, coverage, error);
+           cli_find_borderline(evaluator, layout, coverage, error) &&
+           cli_bound_lines(evaluator, layout, coverage, error);
 }
 
 int cli_fail_in(const cli_scene *opened, sp_error *error)

@@ -25,6 +25,23 @@ static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
     free(report);
 }
 
+/* What simulate tells of how far the layout that was written is off, place has told of it: also what is proved of
+ * lines.
+ */
+static void the_error_is_that_of_the_layout_written(void **state)
+{
+    (void)state;
+    ensure("lines", "place room.yaml --set simulate.trajectory=line --set place.refine=none " COARSE);
+    json_t *placed = json_file("lines/result.json"), *proposed = layout_named(placed, "proposed");
+    json_t *again = expect_json("simulate lines/layout.yaml --json", 0), *one = layout_named(again, "manual");
+    static const char *const told[] = {"error_estimate", "misjudged", "error_bound", "borderline_m2"};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        assert_true(number(proposed, told[i]) == number(one, told[i]));
+    assert_true(number(json_object_get(placed, "fidelity"), "error_bound") >= number(one, "error_bound"));
+    json_decref(placed);
+    json_decref(again);
+}
+
 static void where_nothing_can_be_covered_place_says_so(void **state)
 {
     (void)state;
@@ -229,6 +246,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kept_nozzles_beyond_the_limits_are_named_as_the_cause),
+        cmocka_unit_test(the_error_is_that_of_the_layout_written),
         cmocka_unit_test(where_nothing_can_be_covered_place_says_so),
         cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
