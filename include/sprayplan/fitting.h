@@ -22,7 +22,8 @@ typedef struct {
 typedef struct {
     const sp_nozzle *nozzle; /* borrowed of the layout */
     const sp_mount *mount;   /* borrowed; NULL where it sits on none */
-    const char *fitting;     /* borrowed: the port's name, or that of the part that it is welded to; "" elsewhere */
+    const char *fitting;     /* borrowed: the mount's name; of one that has none `part` */
+    const char *part;        /* borrowed: the name of the part that it is welded to; "" but on a surface */
     double depth_mm;         /* in a port: from its position along its axis to the nozzle's */
     double standoff_mm;      /* on a surface: from the wall to the nozzle's position */
     sp_fitting_place at;     /* the port's position, or the weld: the wall's point nearest to the nozzle's position */

@@ -41,15 +41,21 @@ static void add_text_head(sp_text *text, const char *name)
     sp_text_add(text, "<th scope=\"col\" class=\"text\">%s</th>", name);
 }
 
-/* Of strangers' bytes; a dash for none. */
-static void add_text(sp_text *text, const char *tag, const char *before, const char *value)
+/* Of strangers' bytes. */
+static void add_clean(sp_text *text, const char *value)
 {
     char *clean = sp_text_utf8(value);
     text->failed |= !clean;
-    sp_text_add(text, "<%s>%s", tag, before);
     sp_markup_escape(text, clean ? clean : "");
-    sp_text_add(text, "%s</%.2s>", *value || *before ? "" : "\xe2\x80\x93", tag);
     free(clean);
+}
+
+/* The same as a cell; a dash for none. */
+static void add_text(sp_text *text, const char *tag, const char *value)
+{
+    sp_text_add(text, "<%s>", tag);
+    add_clean(text, value);
+    sp_text_add(text, "%s</%.2s>", *value ? "" : "\xe2\x80\x93", tag);
 }
 
 static void add_number(sp_text *text, double value, int decimals)
@@ -81,13 +87,21 @@ static void add_place(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
     }
 }
 
+/* Behind the mount's name where it has one. */
 static void add_fitting(sp_text *text, const sp_fitting_row *row)
 {
-    static const char *const words[] = {[SP_MOUNT_PORT] = "port ",
-                                        [SP_MOUNT_SURFACE] = "new weld on ",
-                                        [SP_MOUNT_LINE] = "new, on a line",
-                                        [SP_MOUNT_BOX] = "new, in a box"};
-    add_text(text, "td class=\"text\"", row->mount ? words[row->mount->kind] : "as drawn", row->fitting);
+    static const char *const words[] = {
+        [SP_MOUNT_SURFACE] = "new weld on ", [SP_MOUNT_LINE] = "new, on a line", [SP_MOUNT_BOX] = "new, in a box"};
+    const sp_mount *mount = row->mount;
+    bool port = mount && mount->kind == SP_MOUNT_PORT;
+    sp_text_add(text, "<td class=\"text\">%s", port ? "port " : mount ? "" : "as drawn");
+    if (mount)
+        add_clean(text, mount->name);
+    if (mount && !port) {
+        sp_text_add(text, "%s%s", mount->name[0] ? ": " : "", words[mount->kind]);
+        add_clean(text, row->part);
+    }
+    sp_text_add(text, "</td>");
 }
 
 static bool any_turns(const sp_fitting_sheet *sheet)
@@ -130,7 +144,7 @@ static void add_places(const sp_page *page, sp_text *text, size_t design, const 
     for (size_t i = 0; i < sheet->count; ++i) {
         const sp_fitting_row *row = &sheet->rows[i];
         sp_text_add(text, "<tr>");
-        add_text(text, "th scope=\"row\"", "", row->nozzle->name);
+        add_text(text, "th scope=\"row\"", row->nozzle->name);
         add_fitting(text, row);
         add_place(text, sheet, &row->at);
         add_number(text, isfinite(row->depth_mm) ? row->depth_mm : row->standoff_mm, 0);
@@ -178,11 +192,11 @@ static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
 {
     const sp_nozzle *nozzle = row->nozzle;
     sp_text_add(text, "<tr>");
-    add_text(text, "th scope=\"row\"", "", nozzle->name);
-    add_text(text, "td class=\"text\"", "", nozzle->type->name);
+    add_text(text, "th scope=\"row\"", nozzle->name);
+    add_text(text, "td class=\"text\"", nozzle->type->name);
     for (size_t i = 0; i < SOURCES; ++i)
         if (is_told(sheet, i))
-            add_text(text, "td class=\"text\"", "", sources[i].of(nozzle->type));
+            add_text(text, "td class=\"text\"", sources[i].of(nozzle->type));
     add_number(text, sp_nozzle_angle(nozzle) * 180 / M_PI, 1);
     add_number(text, nozzle->pressure / 1e5, 2);
     add_number(text, sp_nozzle_flow(nozzle, &sheet->setup->liquid) * 6e4, 2);

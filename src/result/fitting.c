@@ -54,16 +54,16 @@ static void add_fitting(sp_fitting_row *row, const sp_setup *setup)
     const sp_mount *mount = row->mount;
     sp_vec3 tip = row->nozzle->position;
     if (mount && mount->kind == SP_MOUNT_PORT) {
-        row->fitting = mount->name;
         row->depth_mm = rounded(sp_dot(sp_sub(tip, mount->position), mount->axis) * MM, 1);
         row->at = place_at(setup, mount->position);
     } else if (mount && mount->kind == SP_MOUNT_SURFACE) {
         uint32_t triangle = sp_mount_weld(setup, mount, row->nozzle);
         sp_vec3 weld = sp_triangle_nearest(setup->mesh, triangle, tip);
-        row->fitting = setup->mesh->parts[setup->mesh->part[triangle]].name;
+        row->part = setup->mesh->parts[setup->mesh->part[triangle]].name;
         row->standoff_mm = rounded(sp_distance(weld, tip) * MM, 1);
         row->at = place_at(setup, weld);
     }
+    row->fitting = mount && mount->name[0] ? mount->name : row->part;
 }
 
 /* Counted from the axis as it is written, so that who draws it from that draws the same. */
@@ -152,7 +152,7 @@ sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setu
         size_t mount = mount_count ? sp_mount_at(setup, mounts, mount_count, nozzle->position) : SIZE_MAX;
         sheet->rows[i] = (sp_fitting_row){.nozzle = nozzle,
                                           .mount = mount == SIZE_MAX ? NULL : &mounts[mount],
-                                          .fitting = "",
+                                          .part = "",
                                           .depth_mm = NAN,
                                           .standoff_mm = NAN,
                                           .at = nowhere,

@@ -1,6 +1,6 @@
 /* What a fitter takes to the workshop, through the program: settings in short numbers, the same sheet of the layout
  * that was written, and nozzles that do not pass their port. */
-#include "workplace.h"
+#include "results.h"
 
 static const char set_catalogue[] =
     "nozzles:\n"
@@ -30,6 +30,38 @@ static const char set_room[] =
     "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: "
     "200 "
     "mm}, bore: 50 mm, step: {depth: 15 mm, tilt: 10 deg}}\n";
+
+/* On a surface and on a line that have names, and on a surface that has none. */
+static const char mounted_room[] =
+    "geometry:\n"
+    "  - file: room.obj\n"
+    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+    "criterion: {flux: 1 L/min/m2}\n"
+    "catalogue: catalogue.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: cone, position: [0.5 m, 0.5 m, 0.94 m], axis: [0, 0, -1], pressure: 2 bar%s}\n"
+    "  - {name: N2, type: cone, position: [0.4 m, 0.2 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar%s}\n"
+    "  - {name: N3, type: cone, position: [0.05 m, 0.5 m, 0.5 m], axis: [1, 0, 0], pressure: 2 bar}\n"
+    "simulate: {texel: 200 mm}\n"
+    "place:\n"
+    "  coverage: 90 %%\n"
+    "  max_nozzles: 3\n"
+    "  pressure: 2 bar\n"
+    "  types: [cone]\n"
+    "  refine: none\n"
+    "  mounts:\n"
+    "    - surface: {name: the <lid>, geometry: 0, part: ceiling, spacing: 500 mm, standoff: 60 mm}\n"
+    "    - line: {name: bar, from: [0.2 m, 0.2 m, 0.7 m], to: [0.8 m, 0.2 m, 0.7 m], spacing: 300 mm, axis: [0, 0, "
+    "-1]}\n"
+    "    - surface: {geometry: 0, part: walls, spacing: 500 mm, standoff: 50 mm}\n"
+    "%s";
+
+static void write_mounted(const char *name, const char *keep, const char *alternatives)
+{
+    char scene[sizeof mounted_room + 200];
+    snprintf(scene, sizeof scene, mounted_room, keep, keep, alternatives);
+    write_file(name, scene);
+}
 
 static int open_with_settings(void **state)
 {
@@ -109,6 +141,23 @@ static void the_page_has_the_sheet(void **state)
     free(page);
 }
 
+static void the_sheet_calls_mounts_by_their_names(void **state)
+{
+    (void)state;
+    write_mounted("mounted.yaml", "", "");
+    ensure("mounted", "simulate mounted.yaml");
+    char *page = read_file("mounted/report.html", NULL), *rows = read_file("mounted/nozzles.csv", NULL);
+    static const char *const cells[] = {"N1</th><td class=\"text\">the &lt;lid&gt;: new weld on ceiling</td>",
+                                        "N2</th><td class=\"text\">bar: new, on a line</td>",
+                                        "N3</th><td class=\"text\">new weld on walls</td>"};
+    static const char *const fields[] = {",weld,the <lid>,", ",line,bar,", ",weld,walls,"};
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+        if (!strstr(page, cells[i]) || !strstr(rows, fields[i]))
+            fail_msg("no %s in the page, or no %s in %s", cells[i], fields[i], rows);
+    free(page);
+    free(rows);
+}
+
 /* In a wall or in a bore that is too narrow: an error where it is simulated or kept, a doubt where it is compared. */
 static void what_does_not_pass_is_refused(void **state)
 {
@@ -134,6 +183,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_placed_is_what_can_be_set),
         cmocka_unit_test(the_page_has_the_sheet),
+        cmocka_unit_test(the_sheet_calls_mounts_by_their_names),
         cmocka_unit_test(what_does_not_pass_is_refused),
     };
     return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
