@@ -87,18 +87,19 @@ static void add_place(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
     }
 }
 
-/* Behind the mount's name where it has one. */
+/* Behind the mount's name where it has one. What is kept is there already, as it is for costs and new_fitting. */
 static void add_fitting(sp_text *text, const sp_fitting_row *row)
 {
-    static const char *const words[] = {
-        [SP_MOUNT_SURFACE] = "new weld on ", [SP_MOUNT_LINE] = "new, on a line", [SP_MOUNT_BOX] = "new, in a box"};
+    static const char *const words[][2] = {[SP_MOUNT_SURFACE] = {"new weld on ", "kept, welded to "},
+                                           [SP_MOUNT_LINE] = {"new, on a line", "kept, on a line"},
+                                           [SP_MOUNT_BOX] = {"new, in a box", "kept, in a box"}};
     const sp_mount *mount = row->mount;
     bool port = mount && mount->kind == SP_MOUNT_PORT;
     sp_text_add(text, "<td class=\"text\">%s", port ? "port " : mount ? "" : "as drawn");
     if (mount)
         add_clean(text, mount->name);
     if (mount && !port) {
-        sp_text_add(text, "%s%s", mount->name[0] ? ": " : "", words[mount->kind]);
+        sp_text_add(text, "%s%s", mount->name[0] ? ": " : "", words[mount->kind][row->nozzle->keep]);
         add_clean(text, row->part);
     }
     sp_text_add(text, "</td>");

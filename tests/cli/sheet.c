@@ -158,6 +158,51 @@ static void the_sheet_calls_mounts_by_their_names(void **state)
     free(rows);
 }
 
+/* The text of the fitting's cell of a nozzle, in the sheet of that id. */
+static const char *cell_of(const char *page, const char *id, const char *nozzle)
+{
+    char section[100], cell[100];
+    snprintf(section, sizeof section, "<section id=\"%s\" class=\"sheet\">", id);
+    snprintf(cell, sizeof cell, "%s</th><td class=\"text\">", nozzle);
+    const char *at = strstr(page, section);
+    at = at ? strstr(at, cell) : NULL;
+    assert_non_null(at);
+    return at + strlen(cell);
+}
+
+static bool starts(const char *text, const char *start)
+{
+    return !strncmp(text, start, strlen(start));
+}
+
+/* Neither in the proposal's sheet nor in the engineer's own, while those that are new are so in the figures, too. */
+static void what_is_kept_is_not_called_new(void **state)
+{
+    (void)state;
+    write_mounted("keeping.yaml", ", keep: true", "  alternatives:\n    - {name: all}\n");
+    ensure("keeping", "place keeping.yaml");
+    char *page = read_file("keeping/report.html", NULL);
+    static const char *const ids[] = {"sheet", "sheet-1"};
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(starts(cell_of(page, ids[i], "N1"), "the &lt;lid&gt;: kept, welded to ceiling</td>"));
+        assert_true(starts(cell_of(page, ids[i], "N2"), "bar: kept, on a line</td>"));
+    }
+    json_t *placed = json_file("keeping/result.json"), *nozzle;
+    json_t *proposed = layout_named(placed, "all");
+    size_t i, fresh = 0;
+    json_array_foreach(json_object_get(proposed, "nozzles"), i, nozzle)
+    {
+        const char *cell = cell_of(page, "sheet", json_string_value(json_object_get(nozzle, "name")));
+        const char *end = strstr(cell, "</td>"), *new = strstr(cell, "new");
+        bool said = new &&new < end;
+        assert_int_equal(said, json_is_true(json_object_get(nozzle, "new_fitting")));
+        fresh += said;
+    }
+    assert_true(fresh > 0 && fresh == (size_t)number(proposed, "new_fittings"));
+    json_decref(placed);
+    free(page);
+}
+
 /* In a wall or in a bore that is too narrow: an error where it is simulated or kept, a doubt where it is compared. */
 static void what_does_not_pass_is_refused(void **state)
 {
@@ -181,9 +226,8 @@ static void what_does_not_pass_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_placed_is_what_can_be_set),
-        cmocka_unit_test(the_page_has_the_sheet),
-        cmocka_unit_test(the_sheet_calls_mounts_by_their_names),
+        cmocka_unit_test(what_is_placed_is_what_can_be_set),     cmocka_unit_test(the_page_has_the_sheet),
+        cmocka_unit_test(the_sheet_calls_mounts_by_their_names), cmocka_unit_test(what_is_kept_is_not_called_new),
         cmocka_unit_test(what_does_not_pass_is_refused),
     };
     return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
