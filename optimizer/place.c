@@ -79,13 +79,14 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
     return !sp_refine_asked(&options->refine) || sp_least_squares_ready(error);
 }
 
-/* m³/s that max_water is short of what the least nozzle takes; 0 where one fits. */
-static double water_lacking(const sp_place_options *options, const sp_candidates *candidates)
+/* m³/s that max_water is short of what the kept nozzles and the least further one take; 0 where one fits. */
+static double water_lacking(const sp_search *search)
 {
-    double least = INFINITY;
-    for (size_t k = 0; k < candidates->variant_count; k++)
-        least = fmin(least, candidates->variants[k].flow);
-    return least <= options->max_water * (1 + SP_ROUNDING) ? 0 : least - options->max_water;
+    double least = INFINITY, most = search->options->max_water;
+    for (size_t k = 0; k < search->candidates->variant_count; k++)
+        least = fmin(least, search->candidates->variants[k].flow);
+    double taken = search->kept_flow + least;
+    return taken <= most * (1 + SP_ROUNDING) ? 0 : taken - most;
 }
 
 /* Mounting points, candidates, and what each point can reach on patches few enough. */
@@ -387,7 +388,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->max_nozzles = options->max_nozzles;
     proposal->max_water = options->max_water;
     proposal->interrupted = placement->deadline.interrupted;
-    proposal->water_lacking = water_lacking(placement->options, &placement->candidates);
+    proposal->water_lacking = water_lacking(&placement->search);
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
     proposal->front = sp_front_by_water(&placement->front, &proposal->front_count, error);

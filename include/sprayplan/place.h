@@ -187,7 +187,8 @@ typedef struct {
     bool interrupted;       /* cancelled or out of time: the best so far */
     size_t max_nozzles;     /* the options': 0: no limit */
     double max_water;       /* the options', m³/s: INFINITY: no limit */
-    double water_lacking;   /* m³/s, that max_water is short of what the least nozzle takes; 0 where one fits */
+    double water_lacking; /* m³/s, that max_water is short of what the kept nozzles and the least further one of those
+                           * that are allowed take together: `layout` has kept ones alone; 0 where one fits */
     size_t positions,
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;

@@ -90,6 +90,22 @@ static bool is_looked_into(const sp_proposal *proposal)
     return true;
 }
 
+/* Where there is a nozzle though, all are kept: what these leave is too little. */
+static void say_water_is_lacking(const sp_proposal *proposal)
+{
+    double lacking = 6e4 * proposal->water_lacking;
+    if (proposal->layout->count > 0)
+        fprintf(stderr,
+                "sprayplan: max_water allows no nozzle besides those to keep: with these the least of those that are "
+                "allowed takes %.3g L/min more\n",
+                lacking);
+    else
+        fprintf(stderr,
+                "sprayplan: max_water allows no nozzle at all: the least of those that are allowed takes %.3g L/min "
+                "more\n",
+                lacking);
+}
+
 static void say_what_is_missing(const sp_proposal *proposal)
 {
     const sp_coverage *coverage = proposal->coverage;
@@ -99,12 +115,12 @@ static void say_what_is_missing(const sp_proposal *proposal)
                         "allow\n");
     if (proposal->target_area > 0 && coverage->covered_area >= proposal->asked_area)
         return;
-    if (proposal->water_lacking > 0)
-        fprintf(stderr,
-                "sprayplan: max_water allows no nozzle at all: the least of those that are allowed takes %.3g L/min "
-                "more\n",
-                6e4 * proposal->water_lacking);
-    else if (!(proposal->target_area > 0))
+    bool lacking = proposal->water_lacking > 0, nothing = !(proposal->target_area > 0);
+    if (lacking)
+        say_water_is_lacking(proposal);
+    if (nothing && lacking)
+        return;
+    if (nothing)
         fprintf(stderr,
                 "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
                 "criteria\n");

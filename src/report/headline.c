@@ -117,6 +117,17 @@ static void add_doubtful_alternatives(const sp_page *page, sp_text *text)
     }
 }
 
+/* Where there is a nozzle though, all are kept: what these leave is too little. */
+static void add_lacking(const sp_proposal *proposal, sp_text *text)
+{
+    sp_text_add(text, "<p class=\"warning\"><strong>No %snozzle is allowed.</strong> max_water is less than %s, by ",
+                proposal->layout->count > 0 ? "further " : "",
+                proposal->layout->count > 0 ? "the nozzles to keep and any further one take together"
+                                            : "any nozzle takes");
+    sp_markup_significant(text, 6e4 * proposal->water_lacking, 3);
+    sp_text_add(text, "&nbsp;L/min.</p>\n");
+}
+
 static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
     if (proposal->interrupted) {
@@ -136,13 +147,12 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
                   "water, than was allowed.</p>\n");
     if (proposal->target_area > 0 && proposed->covered_area >= proposal->asked_area)
         return;
-    if (proposal->water_lacking > 0) {
-        sp_text_add(text,
-                    "<p class=\"warning\"><strong>No nozzle is allowed.</strong> max_water is less than any nozzle "
-                    "takes, by ");
-        sp_markup_significant(text, 6e4 * proposal->water_lacking, 3);
-        sp_text_add(text, "&nbsp;L/min.</p>\n");
-    } else if (!(proposal->target_area > 0))
+    bool lacking = proposal->water_lacking > 0, nothing = !(proposal->target_area > 0);
+    if (lacking)
+        add_lacking(proposal, text);
+    if (nothing && lacking)
+        return;
+    if (nothing)
         sp_text_add(text,
                     "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
                     "mounting point that takes it, covers anything by the criteria.</p>\n");

@@ -13,7 +13,8 @@ static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
     outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=100 %'");
     assert_int_equal(result.status, 4);
     assert_non_null(strstr(result.err, "the nozzles to keep"));
-    assert_non_null(strstr(result.err, "max_water allows no nozzle"));
+    assert_non_null(strstr(result.err, "max_water allows no nozzle besides those to keep: with these the least of "
+                                       "those that are allowed takes 19 L/min more\n"));
     forget(&result);
     result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %' -o kept");
     assert_int_equal(result.status, 4);
@@ -22,6 +23,26 @@ static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
     char *report = read_file("kept/report.html", NULL);
     assert_non_null(strstr(report, "The nozzles to keep are more"));
     assert_null(strstr(report, "is not reached"));
+    free(report);
+}
+
+/* 12 L/min are kept, and the least further nozzle takes as much. */
+static void what_kept_nozzles_leave_may_be_too_little(void **state)
+{
+    (void)state;
+    char scene[sizeof room_yaml + 64];
+    const char *at = strstr(room_yaml, "pressure: 2 bar}");
+    snprintf(scene, sizeof scene, "%.*skeep: true, %s", (int)(at - room_yaml), room_yaml, at);
+    write_file("kept.yaml", scene);
+    outcome result = run_program("place kept.yaml --set 'place.max_water=20 L/min' -o little " COARSE);
+    assert_int_equal(result.status, 4);
+    assert_null(strstr(result.err, "the nozzles to keep are more"));
+    assert_non_null(strstr(result.err, "with these the least of those that are allowed takes 4 L/min more\n"));
+    assert_non_null(strstr(result.err, "% of the surface"));
+    forget(&result);
+    char *report = read_file("little/report.html", NULL);
+    assert_non_null(strstr(report, "No further nozzle is allowed.</strong> max_water is less than the nozzles to keep "
+                                   "and any further one take together, by 4.00&nbsp;L/min."));
     free(report);
 }
 
@@ -246,6 +267,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kept_nozzles_beyond_the_limits_are_named_as_the_cause),
+        cmocka_unit_test(what_kept_nozzles_leave_may_be_too_little),
         cmocka_unit_test(the_error_is_that_of_the_layout_written),
         cmocka_unit_test(where_nothing_can_be_covered_place_says_so),
         cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),

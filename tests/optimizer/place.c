@@ -199,6 +199,22 @@ static void limits_hold(void **state)
         least = fmin(least, sp_type_flow(j.options.types[i], j.options.types[i]->flow, PRESSURE, &j.room.setup.liquid));
     assert_true(fabs(proposal->water_lacking - (least - j.options.max_water)) < 1e-9 * least);
     sp_proposal_destroy(proposal);
+
+    /* nor does a further one beside one that is kept, whose water counts */
+    sp_nozzle kept = nozzle_of(&j, 1);
+    kept.keep = true;
+    const sp_layout own = {.count = 1, .nozzles = &kept};
+    double taken = sp_nozzle_flow(&kept, &j.room.setup.liquid);
+    j.options.kept = &own;
+    j.options.max_water = taken + 0.75 * least;
+    proposal = job_place(&j);
+    assert_int_equal(proposal->layout->count, 1);
+    assert_true(fabs(proposal->water_lacking - 0.25 * least) < 1e-9 * least);
+    sp_proposal_destroy(proposal);
+    j.options.max_water = taken + least;
+    proposal = job_place(&j);
+    assert_true(proposal->layout->count > 1 && proposal->water_lacking == 0);
+    sp_proposal_destroy(proposal);
     room_close(&j.room);
 }
 
