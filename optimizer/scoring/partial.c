@@ -212,8 +212,9 @@ double sp_partial_counted(const sp_search *search, const sp_partial *partial)
 {
     double area = 0;
     for (size_t p = 0; p < search->patch_count; p++)
-        area += (double)(search->area[p] * sp_covered(partial->wet[p], partial->dry[p]));
-    return area * search->all;
+        area +=
+            sp_evaluator_counted(search->coarse, (uint32_t)p) * (double)sp_covered(partial->wet[p], partial->dry[p]);
+    return area;
 }
 
 double sp_partial_costs(const sp_search *search, const sp_partial *partial)

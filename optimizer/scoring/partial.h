@@ -43,7 +43,8 @@ void sp_partial_remove(const sp_search *search, sp_partial *partial, size_t i);
 sp_placed sp_partial_take(const sp_search *search, sp_partial *partial, size_t i);
 /* Draws wet, dry, flow, outlay, covered and value from the items. */
 void sp_partial_refresh(const sp_search *search, sp_partial *partial);
-/* What it covers of the search's patches, m², added up in their order. */
+/* What it covers of the search's patches, m², added up in their order: their areas in double precision, which patches
+ * at edges alone are covered a share of in single precision. */
 double sp_partial_counted(const sp_search *search, const sp_partial *partial);
 /* True where a covers more than b, and not the same but for round-off. */
 static inline bool sp_covers_more(const sp_search *search, const sp_partial *a, const sp_partial *b)

@@ -125,8 +125,14 @@ static void expect_closed(const job *j, const counted *layouts, const sp_proposa
     assert_true(certificate->area_bound <= most_within(j, layouts, 1.001 * flow) * (1 + 1e-6));
     assert_true(certificate->water_bound <= least_for(j, layouts, certificate->counted) * (1 + EQUAL));
     assert_true(certificate->water_bound >= 0.995 * least_for(j, layouts, certificate->counted * (1 - 1e-6)));
+    /* as shares of one whole they hold to the last bit, as that of the proposal is reported beside them */
+    assert_int_equal(certificate->texels, sp_evaluator_patches(j->room.evaluator)->count);
+    double whole = proposal->coverage->area;
+    assert_true(certificate->whole == whole);
+    assert_true(certificate->area_bound / certificate->whole >= proposal->coverage->fraction);
     for (size_t i = 0; i < proposal->front_count; i++) {
         double most = most_within(j, layouts, proposal->front[i].flow);
+        assert_true(proposal->front[i].bound / certificate->whole >= proposal->front[i].area / whole);
         assert_true(proposal->front[i].bound >= most * (1 - EQUAL));
         assert_true(fabs(proposal->front[i].area - most) <= EQUAL * most);
     }

@@ -112,6 +112,7 @@ static void nothing_exceeds_the_certificate(void **state)
         assert_true(fabs(certificate->counted - proposal->coverage->covered_area) < 1e-5);
         assert_true(certificate->area_bound + 1e-5 >= best);
         assert_true(certificate->area_bound < 1.25 * best);
+        assert_true(certificate->area_bound / certificate->whole >= proposal->coverage->fraction);
         for (size_t i = 0; i < proposal->front_count; i++)
             assert_true(proposal->front[i].bound >= proposal->front[i].counted);
         /* with all layouts looked at it still holds, and is no longer above the best there is */

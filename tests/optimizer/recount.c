@@ -29,7 +29,7 @@ static void check_counts(const recount_scene *scene, const sp_proposal *proposal
     const sp_certificate *c = &proposal->certificate;
     const sp_patches *patches = sp_evaluator_patches(scene->room.evaluator);
     assert_int_equal(c->texels, patches->count);
-    assert_true(fabs(c->whole - patches->total_area) <= 1e-6 * patches->total_area);
+    assert_true(fabs(c->whole - patches->total_area) <= 1e-12 * patches->total_area);
     sp_coverage *coverage = sp_evaluate_inverse(scene->room.evaluator, proposal->layout, &error);
     assert_non_null(coverage);
     if (fabs(c->counted - coverage->covered_area) > ROUNDING * coverage->covered_area)

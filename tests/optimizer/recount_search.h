@@ -15,7 +15,7 @@
 #define RECOUNT_ROOM 40000000 /* patches that are remembered, of all nozzles */
 #define RECOUNT_FEW 40        /* poses */
 #define RECOUNT_STEPS 1500    /* of one annealing */
-#define RECOUNT_ROUNDING 1e-6 /* of a bound, that areas in single precision may lie above it */
+#define RECOUNT_ROUNDING 1e-6 /* of an area, that shares of patches in single precision may be counted too low by */
 
 typedef struct {
     uint32_t patch;
@@ -220,7 +220,7 @@ static inline void recount_judge(recount *r, const recount_layout *layout, doubl
     bool aimed = way == RECOUNT_AIMED;
     double flow = recount_flow(r, layout), bound = recount_bound(r, flow, aimed), margin = (bound - area) / bound;
     double water = aimed ? c->every_aim.water_bound : c->water_bound;
-    if (isfinite(bound) && margin < -RECOUNT_ROUNDING)
+    if (isfinite(bound) && margin < 0)
         fail_msg("%.9g m2 (evaluated whole %.9g) with %.9g m3/s in %zu, bound %.9g", area, recount_truly(r, layout),
                  flow, layout->count, bound);
     if (isfinite(bound))
