@@ -84,11 +84,13 @@ static inline double sp_wetting_share(const sp_wetting *wetting, double threshol
     return sp_flux_suffices(wetting->even, threshold) ? 1 : 1 - wetting->dry;
 }
 
-/* Why a patch is not attainable: how near the candidate that comes nearest brings it. */
+/* Why a patch is not attainable: how near the nozzle that comes nearest brings the point that it is judged by, of all
+ * nozzles at the mounting points, aimed in any way that the mounts allow. */
 typedef enum {
     SP_REASON_ATTAINABLE, /* it is */
     SP_REASON_UNKNOWN,    /* the search for a reason was cut short */
-    SP_REASON_NO_LINE,    /* no flight from any mounting point arrives */
+    SP_REASON_NO_LINE,    /* no flight from any mounting point arrives at that point; other parts of the patch may be
+                           * reached */
     SP_REASON_REFLECTION, /* only liquid that a wall throws back does */
     SP_REASON_SLOW,       /* what arrives is slower than the criterion asks */
     SP_REASON_SLANTED,    /* what arrives fast enough is more slanted than the criterion allows */

@@ -178,8 +178,10 @@ typedef struct {
                           * keep the accuracy on the proposal (sp_evaluator_again) */
     sp_layout *greedy;   /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
-    bool *attainable;   /* [patches], of `again` where there is one, by the allowed nozzles or either layout above */
-    sp_reason *reasons; /* [patches]: why not */
+    bool *attainable; /* [patches], of `again` where there is one: nozzles at the mounting points, aimed in any way that
+                       * mounts and types allow, not only as candidates are, could cover the point that it is judged
+                       * by within the limits; or either layout above covers half of it */
+    sp_reason *reasons;     /* [patches]: why not */
     double attainable_area; /* m² */
     double asked_area;      /* m²: options' coverage of the surface to be cleaned */
     double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */

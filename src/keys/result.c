@@ -14,8 +14,11 @@ static const sp_key result_input_keys[] = {
     {.name = NULL}};
 static const sp_block result_input = {"result_input", "an input", NULL, result_input_keys};
 
+#define NO_LINE                                                                                                        \
+    "Nothing sprayed from a mounting point, aimed in any way that mount and type allow, arrives at the point that a "  \
+    "patch is judged by, m2"
 static const sp_key unattainable_keys[] = {
-    {.name = "no_line_of_reach", .kind = SP_KEY_NUMBER, .says = "Nothing flies there from any candidate pose, m2"},
+    {.name = "no_line_of_reach", .kind = SP_KEY_NUMBER, .says = NO_LINE},
     {.name = "reflection_only", .kind = SP_KEY_NUMBER, .says = "Only what walls throw back gets there, m2"},
     {.name = "too_slow", .kind = SP_KEY_NUMBER, .says = "What arrives is slower than `impact_speed`, m2"},
     {.name = "too_slanted", .kind = SP_KEY_NUMBER, .says = "What arrives is more slanted than `incidence`, m2"},
@@ -28,7 +31,7 @@ static const sp_block unattainable = {"unattainable", "area out of reach by reas
 static const sp_key unattainable_part_keys[] = {
     {.name = "part", .kind = SP_KEY_TEXT, .says = "Its name"},
     {.name = "area_m2", .kind = SP_KEY_NUMBER, .says = "Of it, out of reach"},
-    {.name = "no_line_of_reach", .kind = SP_KEY_NUMBER, .says = "Nothing flies there from any candidate pose, m2"},
+    {.name = "no_line_of_reach", .kind = SP_KEY_NUMBER, .says = NO_LINE},
     {.name = "reflection_only", .kind = SP_KEY_NUMBER, .says = "Only what walls throw back gets there, m2"},
     {.name = "too_slow", .kind = SP_KEY_NUMBER, .says = "What arrives is slower than `impact_speed`, m2"},
     {.name = "too_slanted", .kind = SP_KEY_NUMBER, .says = "What arrives is more slanted than `incidence`, m2"},
@@ -77,7 +80,9 @@ static const sp_key result_geometry_keys[] = {
      .says = "What is to be cleaned and is wet, by side: what coverage is of"},
     {.name = "attainable_area_m2",
      .kind = SP_KEY_NUMBER,
-     .says = "Of it, what some allowed layout can cover; of `place` only"},
+     .says = "Of it, patches that nozzles at the mounting points, aimed in any way that mounts and types allow, could "
+             "cover within the limits, each for itself and judged at one point; and patches that a reported layout "
+             "covers half of or more. Never less than what such a layout covers. Of `place` only"},
     {.name = "unattainable_m2", .kind = SP_KEY_BLOCK, .block = &unattainable, .says = "The rest by reason"},
     {.name = "unattainable_by_part",
      .kind = SP_KEY_BLOCKS,

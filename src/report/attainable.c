@@ -7,7 +7,8 @@
 
 static const char *const explanations[SP_REASONS] = {
     [SP_REASON_UNKNOWN] = "the search was stopped before it was looked into",
-    [SP_REASON_NO_LINE] = "nothing that leaves an allowed place in an allowed direction arrives there",
+    [SP_REASON_NO_LINE] =
+        "nothing that leaves a mounting point in an allowed direction arrives at the point that a patch is judged by",
     [SP_REASON_REFLECTION] = "only liquid that a wall throws back arrives",
     [SP_REASON_SLOW] = "what arrives is slower than the criterion asks",
     [SP_REASON_SLANTED] = "what arrives fast enough is more slanted than the criterion allows",
@@ -243,7 +244,10 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
     sp_text_add(text, "&nbsp;%%) are attainable: some ");
     add_allowed(page, text);
-    sp_text_add(text, ", at some allowed place and direction, reaches them as the criterion asks, or %s covers them.",
+    sp_text_add(text,
+                ", at a mounting point looked at and aimed in any way that its mount and type allow, not only as the "
+                "candidate poses are, reaches them as the criterion asks, each patch judged at one point; or %s covers "
+                "them, half of a patch at least.",
                 page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
     double limited = add_limited(page, text, figures);
     if (missing - limited > NEGLIGIBLE * figures->clean_area)
