@@ -17,7 +17,7 @@ static const char *const words_refine[] = {"none", NULL};
 #define MOST                                                                                                           \
     {                                                                                                                  \
         .name = "max_nozzles", .kind = SP_KEY_COUNT, .range = SP_BETWEEN(1, SP_MAX_ITEMS), .absent = "any number",     \
-        .says = "How many nozzles this mount takes"                                                                    \
+        .says = "How many nozzles this mount takes besides kept ones"                                                  \
     }
 #define COST                                                                                                           \
     {                                                                                                                  \
@@ -298,6 +298,6 @@ static const sp_key limited_mount_keys[] = {
      .kind = SP_KEY_COUNT,
      .required = true,
      .range = SP_BETWEEN(1, SP_MAX_ITEMS),
-     .says = "How many nozzles it takes here"},
+     .says = "How many nozzles it takes here, besides kept ones"},
     {.name = NULL}};
 const sp_block sp_block_limited_mount = {"limited_mount", "a mount with a limit", NULL, limited_mount_keys};
