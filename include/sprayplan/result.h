@@ -221,6 +221,14 @@ SP_API void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TE
 /* Whether the proposal is more nozzles, or takes more water, than these limits allow: the nozzles to keep are. */
 SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
 
+/* Decimals that a value is told with: `least`, or where these would leave fewer than `digits` significant digits of it
+ * as many as do, up to 9. `least` of what is not finite, or 0 with all of these. */
+SP_API int sp_told_decimals(double value, int least, int digits);
+/* The same of water in L/min: the tenth from 10 L/min on, three significant digits below. */
+SP_API int sp_water_decimals(double l_min);
+/* What is proved that none takes less than, in L/min, rounded down to these decimals. */
+SP_API double sp_water_at_least(double l_min);
+
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
  * what any design on the same evaluator that it speaks of covers. The caller destroys. */
 SP_API sp_figures *sp_result_figures(const sp_result *result, sp_error *error);

@@ -43,19 +43,26 @@ static void print_geometry(const sp_result *result)
         printf("(`check` says where)\n\n");
 }
 
+/* A column of L/min, with the digits that tell `whole`, of which `flow` is a part or which it is. */
+static void print_water(int width, double flow, double whole)
+{
+    printf(" %*.*f", width, sp_water_decimals(6e4 * whole), 6e4 * flow);
+}
+
 /* Water and mounts, and that in money; nothing where neither is told. */
 static void print_price(const sp_figures *figures)
 {
     if (isfinite(figures->mount_cost))
-        printf(" %12.1f", 6e4 * sp_figures_price(figures));
+        print_water(12, sp_figures_price(figures), sp_figures_price(figures));
     if (isfinite(sp_figures_money(figures)))
         printf(" %12.2f %s", sp_figures_money(figures), figures->water_cost.currency);
 }
 
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
-    printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
-           figures->covered_area, 100 * figures->coverage);
+    printf("%-*s %8zu", width, name, figures->nozzle_count);
+    print_water(12, figures->flow, figures->flow);
+    printf(" %13.3f %10.1f", figures->covered_area, 100 * figures->coverage);
     if (!isnan(figures->of_attainable))
         printf(" %15.1f", 100 * figures->of_attainable);
     else
@@ -128,7 +135,8 @@ static void print_choice(const sp_result *result, const sp_figures *figures)
 
 static void print_share(const sp_figures *figures, double flow)
 {
-    printf(" %12.1f %5.1f %%", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0);
+    print_water(12, flow, figures->flow);
+    printf(" %5.1f %%", figures->flow > 0 ? 100 * flow / figures->flow : 0);
 }
 
 /* Where the liquid goes, which coverage does not tell: what flies out or onto obstacles cleans nothing. */
@@ -165,8 +173,12 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
             printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
                    "astray L/min", "per girth L/min/m");
         told = true;
-        printf("%-*s %12.3f %16.1f %16.1f %16.1f %22.1f\n", width, result->designs[i].name, film->area,
-               6e4 * film->left, 6e4 * film->held, 6e4 * film->astray, 6e4 * film->per_girth);
+        printf("%-*s %12.3f", width, result->designs[i].name, film->area);
+        print_water(16, film->left, figures[i].flow);
+        print_water(16, film->held, figures[i].flow);
+        print_water(16, film->astray, figures[i].flow);
+        print_water(22, film->per_girth, film->per_girth);
+        printf("\n");
     }
 }
 
@@ -198,15 +210,22 @@ static void print_forward_check(const sp_forward_check *check)
             1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
 }
 
+/* Water that is proved from below. */
+static void print_least_water(const sp_proposal *proposal, double flow)
+{
+    double least = sp_water_at_least(6e4 * flow);
+    printf("%.*f L/min%s", sp_water_decimals(least), least, proposal->costly ? " of water and cost of mounts" : "");
+}
+
 /* A share of 100 % would say nothing. */
 static void print_every_aim(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
     double percent = ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10;
     printf("Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
-           "reaches it with less\nthan %.1f L/min%s",
-           certificate->every_aim.places, floor(6e5 * certificate->every_aim.water_bound + 1e-6) / 10,
-           proposal->costly ? " of water and cost of mounts" : "");
+           "reaches it with less\nthan ",
+           certificate->every_aim.places);
+    print_least_water(proposal, certificate->every_aim.water_bound);
     if (percent < 100)
         printf(", and %s none covers more than %.1f %%",
                proposal->costly ? "for the proposal's price" : "with the proposal's water", percent);
@@ -223,13 +242,14 @@ static void print_certificate(const sp_proposal *proposal)
     }
     printf(
         "\nAmong these %zu candidate poses and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
-        "than %.1f L/min%s.\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses "
-        "between "
-        "candidates are not covered.\n",
-        certificate->candidates, certificate->texels, ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10,
-        floor(6e5 * certificate->water_bound + 1e-6) / 10, proposal->costly ? " of water and cost of mounts" : "",
-        proposal->costly ? "For the proposal's price" : "With the proposal's water",
-        ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, ceil(1e3 * certificate->gap - 1e-9) / 10);
+        "than ",
+        certificate->candidates, certificate->texels,
+        ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10);
+    print_least_water(proposal, certificate->water_bound);
+    printf(".\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses between candidates are not covered.\n",
+           proposal->costly ? "For the proposal's price" : "With the proposal's water",
+           ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10,
+           ceil(1e3 * certificate->gap - 1e-9) / 10);
     if (certificate->every_aim.computed)
         print_every_aim(proposal);
 }

@@ -58,7 +58,7 @@ static void add_coverage(const sp_page *page, sp_text *text, size_t design)
 
 static void add_water(const sp_page *page, sp_text *text, size_t design)
 {
-    sp_markup_decimals(text, L_MIN * page->figures[design].flow, 1);
+    sp_markup_water(text, L_MIN * page->figures[design].flow);
     sp_text_add(text, "&nbsp;L/min");
 }
 
@@ -66,7 +66,7 @@ static void add_water(const sp_page *page, sp_text *text, size_t design)
 static void add_price(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
-    sp_markup_decimals(text, L_MIN * sp_page_price(figures), 1);
+    sp_markup_water(text, L_MIN * sp_page_price(figures));
     sp_text_add(text, "&nbsp;L/min");
     if (isfinite(sp_figures_money(figures))) {
         sp_text_add(text, ", ");
@@ -74,7 +74,7 @@ static void add_price(const sp_page *page, sp_text *text, size_t design)
         sp_text_add(text, "&nbsp;%s", figures->water_cost.currency);
     }
     sp_text_add(text, "<br><span class=\"unit\">");
-    sp_markup_decimals(text, L_MIN * figures->mount_cost, 1);
+    sp_markup_water_of(text, L_MIN * figures->mount_cost, L_MIN * sp_page_price(figures));
     sp_text_add(text, "&nbsp;L/min for mounts</span>");
 }
 
@@ -145,12 +145,13 @@ static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t desig
         sp_text_add(text, "nothing found that covers as much");
         return;
     }
-    sp_markup_decimals(text, L_MIN * best.price, 1);
+    sp_markup_water(text, L_MIN * best.price);
     sp_text_add(text, "&nbsp;L/min");
     if (design == first_of(page))
         return;
     sp_text_add(text, " (");
-    add_gain(text, L_MIN * (best.price - sp_page_price(first)), 1, "L/min", best.fittings, first->fittings);
+    add_gain(text, L_MIN * (best.price - sp_page_price(first)), sp_water_decimals(L_MIN * sp_page_price(first)),
+             "L/min", best.fittings, first->fittings);
     sp_text_add(text, ")<br><span class=\"unit\">");
     add_nozzle_count(text, best.nozzles, best.fittings);
     sp_text_add(text, "</span>");
@@ -237,7 +238,7 @@ static void add_fitting(const sp_page *page, sp_text *text, size_t design, const
         sp_text_add(text, "</td>");
     }
     sp_text_add(text, "<td>");
-    sp_markup_decimals(text, L_MIN * nozzle->flow, 1);
+    sp_markup_water_beside(text, L_MIN * nozzle->flow, L_MIN * page->figures[design].flow);
     sp_text_add(text, "</td><td>");
     sp_markup_decimals(text, nozzle->lost, 3);
     sp_text_add(text, "</td><td>");

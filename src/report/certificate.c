@@ -11,6 +11,12 @@ static void add_percent(sp_text *text, double fraction, bool up)
     sp_text_add(text, "&nbsp;%%");
 }
 
+/* Water that is proved from below. */
+static void add_least_water(sp_text *text, double flow)
+{
+    sp_markup_water(text, sp_water_at_least(6e4 * flow));
+}
+
 /* `only`: there is no other on the page. */
 static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
 {
@@ -22,7 +28,7 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
                 "they point within the mounts&#39; tilt, at any roll and at any angle and flow that refinement may "
                 "set, and of the proposal&#39;s own poses, no layout reaches that with less than ",
                 only ? " id=\"every-aim\"" : "", found->every_aim.places);
-    sp_markup_decimals(text, floor(6e5 * found->every_aim.water_bound + 1e-6) / 10, 1);
+    add_least_water(text, found->every_aim.water_bound);
     sp_text_add(text, "&nbsp;L/min%s", proposal->costly ? of_both : "");
     if (ceil(1e3 * found->every_aim.area_bound / found->whole - 1e-9) < 1e3) { /* else it says nothing */
         sp_text_add(text, ", and with the proposal&#39;s %s none reaches more than ",
@@ -42,13 +48,13 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
                 found->candidates, found->texels);
     add_percent(text, found->counted / found->whole, true);
     sp_text_add(text, " with less than ");
-    sp_markup_decimals(text, floor(6e5 * found->water_bound + 1e-6) / 10, 1);
+    add_least_water(text, found->water_bound);
     sp_text_add(
         text,
         "&nbsp;L/min%s. Poses between candidates are not covered.</p>\n<p>That share of the surface to be cleaned, "
         "attainable or not, rounded up, is what the proposal itself reaches on these texels, with ",
         proposal->costly ? of_both : "");
-    sp_markup_decimals(text, 6e4 * proposal->outlay, 1);
+    sp_markup_water(text, 6e4 * proposal->outlay);
     sp_text_add(text, "&nbsp;L/min%s. %s no layout reaches more than ", proposal->costly ? of_both : "",
                 proposal->costly ? "For the same price" : "With as much water");
     add_percent(text, found->area_bound / found->whole, true);

@@ -49,7 +49,7 @@ static void add_percent(sp_text *text, double fraction)
 static void add_flow(sp_text *text, double flow)
 {
     sp_text_add(text, "<td>");
-    sp_markup_decimals(text, 6e4 * flow, 1);
+    sp_markup_water(text, 6e4 * flow);
     sp_text_add(text, "&nbsp;L/min</td>");
 }
 
@@ -78,7 +78,7 @@ static void add_same_price(const sp_page *page, sp_text *text, double fraction, 
     sp_markup_signed(text, 100 * (best->area / whole - fraction), 1);
     sp_text_add(text, "&nbsp;points</td><td class=\"text\">%zu nozzle%s, ", best->nozzles,
                 best->nozzles == 1 ? "" : "s");
-    sp_markup_decimals(text, 6e4 * best->price, 1);
+    sp_markup_water(text, 6e4 * best->price);
     sp_text_add(text, "&nbsp;L/min</td></tr>\n");
 }
 
@@ -116,7 +116,7 @@ void sp_page_gain(const sp_page *page, sp_text *text)
     sp_markup_decimals(text, 100 * same_price.area / manual->clean_area, 1);
     sp_text_add(text, "&nbsp;%%</strong>; to cover no less than the engineer&#39;s, it %s <strong>",
                 page->costly ? "takes, in water and what mounts cost," : "needs");
-    sp_markup_decimals(text, 6e4 * same_area.price, 1);
+    sp_markup_water(text, 6e4 * same_area.price);
     sp_text_add(text, "&nbsp;L/min</strong> (");
     sp_markup_signed(text, 100 * (same_area.price / sp_page_price(manual) - 1), 0);
     sp_text_add(text, "&nbsp;%%).</p>\n");

@@ -21,18 +21,19 @@ const char sp_page_cost_heads[] = "<th scope=\"col\">Cost of its mount, L/min</t
 void sp_page_cost_cells(sp_text *text, const sp_nozzle_figures *nozzle, double whole)
 {
     sp_text_add(text, "<td>");
-    sp_markup_decimals(text, 6e4 * nozzle->cost, 1);
+    sp_markup_water(text, 6e4 * nozzle->cost);
     sp_text_add(text, "</td><td>");
     sp_markup_decimals(text, 100 * nozzle->lost / whole / (6e4 * (nozzle->flow + nozzle->cost)), 3);
     sp_text_add(text, "</td>");
 }
 
-static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, double whole, bool costly)
+static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, const sp_figures *layout, bool costly)
 {
+    double whole = layout->clean_area;
     sp_text_add(text, "<tr><th scope=\"row\">");
     sp_markup_escape(text, nozzle->name);
     sp_text_add(text, "</th><td>");
-    sp_markup_decimals(text, 6e4 * nozzle->flow, 1);
+    sp_markup_water_beside(text, 6e4 * nozzle->flow, 6e4 * layout->flow);
     sp_text_add(text, "</td>");
     add_area(text, nozzle->alone, whole, false);
     add_area(text, nozzle->lost, whole, true);
@@ -52,7 +53,7 @@ static void add_design(const sp_page *page, sp_text *text, size_t design)
                 "without it, m\xc2\xb2</th><th scope=\"col\">points</th>%s</tr></thead>\n<tbody>\n",
                 page->costly ? sp_page_cost_heads : "");
     for (size_t i = 0; i < figures->nozzle_count; ++i)
-        add_nozzle(text, &figures->nozzles[i], figures->clean_area, page->costly);
+        add_nozzle(text, &figures->nozzles[i], figures, page->costly);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

@@ -2,6 +2,7 @@
 #include "page.h"
 
 typedef double film_figure(const sp_figures *figures);
+typedef int film_decimals(const sp_figures *figures);
 
 static double covered(const sp_figures *f)
 {
@@ -24,19 +25,34 @@ static double per_girth(const sp_figures *f)
     return 6e4 * f->film.per_girth;
 }
 
+static int area_decimals(const sp_figures *f)
+{
+    (void)f;
+    return 3;
+}
+/* Of parts of the layout's water. */
+static int water_decimals(const sp_figures *f)
+{
+    return sp_water_decimals(6e4 * f->flow);
+}
+static int per_girth_decimals(const sp_figures *f)
+{
+    return sp_water_decimals(per_girth(f));
+}
+
 /* Columns of a table. */
 typedef struct {
     size_t first, end; /* designs */
 } columns;
 
 static void add_row(const sp_page *page, sp_text *text, columns shown, const char *title, const char *unit,
-                    int decimals, film_figure *value)
+                    film_decimals *decimals, film_figure *value)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s <span class=\"unit\">(%s)</span></th>", title, unit);
     for (size_t i = shown.first; i < shown.end; ++i) {
         sp_text_add(text, "<td%s>", sp_page_column(page, i));
         if (page->figures[i].film.known)
-            sp_markup_decimals(text, value(&page->figures[i]), decimals);
+            sp_markup_decimals(text, value(&page->figures[i]), decimals(&page->figures[i]));
         sp_text_add(text, "</td>");
     }
     sp_text_add(text, "</tr>\n");
@@ -70,11 +86,12 @@ static void add_table(const sp_page *page, sp_text *text, columns shown)
                       "class=\"numbers\"><thead><tr><th scope=\"col\">Film</th>");
     sp_page_columns(page, text, shown.first, shown.end);
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
-    add_row(page, text, shown, "Covered by film alone", "m\xc2\xb2", 3, covered);
-    add_row(page, text, shown, "Drains from the geometry", "L/min", 1, drained);
-    add_row(page, text, shown, "Stands where it cannot drain", "L/min", 1, held);
-    add_row(page, text, shown, "Drips on dry surface", "L/min", 1, astray);
-    add_row(page, text, shown, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
+    add_row(page, text, shown, "Covered by film alone", "m\xc2\xb2", area_decimals, covered);
+    add_row(page, text, shown, "Drains from the geometry", "L/min", water_decimals, drained);
+    add_row(page, text, shown, "Stands where it cannot drain", "L/min", water_decimals, held);
+    add_row(page, text, shown, "Drips on dry surface", "L/min", water_decimals, astray);
+    add_row(page, text, shown, "Supply per metre around all walls, seen from above", "L/min per m", per_girth_decimals,
+            per_girth);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

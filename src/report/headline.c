@@ -7,26 +7,32 @@ static void add_statement(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "covers <strong>");
     sp_page_coverage(text, figures);
     sp_text_add(text, "</strong> of the surface to be cleaned with <strong>");
-    sp_markup_decimals(text, 6e4 * figures->flow, 1);
+    sp_markup_water(text, 6e4 * figures->flow);
     sp_text_add(text, "&nbsp;L/min</strong>");
 }
 
 static void add_card(const sp_page *page, sp_text *text, const char *title, const char *unit, const double values[2],
-                     int decimals, bool points)
+                     const int decimals[2], bool points)
 {
     sp_text_add(text, "<div class=\"card\"><div class=\"title\">%s</div><div class=\"value\">", title);
-    sp_markup_decimals(text, values[0], decimals);
+    sp_markup_decimals(text, values[0], decimals[0]);
     if (points)
         sp_page_error(text, &page->figures[page->main]);
     sp_text_add(text, " <span class=\"unit\">%s</span></div>", unit);
     if (page->manual != SP_UNKNOWN && page->manual != page->main && isfinite(values[1])) {
         sp_text_add(text, "<div class=\"against\">manual ");
-        sp_markup_decimals(text, values[1], decimals);
+        sp_markup_decimals(text, values[1], decimals[1]);
         sp_text_add(text, " %s (", unit);
         sp_markup_signed(text, points ? values[0] - values[1] : 100 * (values[0] / values[1] - 1), points ? 1 : 0);
         sp_text_add(text, points ? "&nbsp;points)</div>" : "&nbsp;%%)</div>");
     }
     sp_text_add(text, "</div>\n");
+}
+
+static void add_water_card(const sp_page *page, sp_text *text, const char *title, const double values[2])
+{
+    const int decimals[2] = {sp_water_decimals(values[0]), sp_water_decimals(values[1])};
+    add_card(page, text, title, "L/min", values, decimals, false);
 }
 
 static void add_cards(const sp_page *page, sp_text *text)
@@ -39,15 +45,16 @@ static void add_cards(const sp_page *page, sp_text *text)
     const double price[2] = {6e4 * sp_page_price(main), 6e4 * sp_page_price(manual)};
     const double money[2] = {sp_figures_money(main), sp_figures_money(manual)};
     const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
+    static const int none[2] = {0, 0}, tenths[2] = {1, 1}, thousandths[2] = {3, 3};
     sp_text_add(text, "<div class=\"cards\">\n");
-    add_card(page, text, "Coverage", "%", coverage, 1, true);
-    add_card(page, text, "Water", "L/min", water, 1, false);
+    add_card(page, text, "Coverage", "%", coverage, tenths, true);
+    add_water_card(page, text, "Water", water);
     if (isfinite(sp_figures_money(main)))
-        add_card(page, text, "Price", main->water_cost.currency, money, 0, false);
+        add_card(page, text, "Price", main->water_cost.currency, money, none, false);
     else if (page->costly)
-        add_card(page, text, "Price", "L/min", price, 1, false);
-    add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, 3, false);
-    add_card(page, text, "Nozzles", "", count, 0, false);
+        add_water_card(page, text, "Price", price);
+    add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, thousandths, false);
+    add_card(page, text, "Nozzles", "", count, none, false);
     sp_text_add(text, "</div>\n");
 }
 

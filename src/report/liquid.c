@@ -27,7 +27,7 @@ static void add_row(const sp_page *page, sp_text *text, size_t first, size_t end
     for (size_t i = first; i < end; ++i) {
         const sp_figures *figures = &page->figures[i];
         sp_text_add(text, "<td%s>", sp_page_column(page, i));
-        sp_markup_decimals(text, 6e4 * value(figures), 1);
+        sp_markup_water_of(text, 6e4 * value(figures), 6e4 * figures->flow);
         if (isfinite(value(figures)) && figures->flow > 0) {
             sp_text_add(text, " <span class=\"unit\">(");
             sp_markup_decimals(text, 100 * value(figures) / figures->flow, 1);

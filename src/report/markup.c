@@ -1,5 +1,7 @@
 #include "markup.h"
 
+#include <sprayplan/result.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -76,6 +78,21 @@ void sp_markup_significant(sp_text *text, double value, int digits)
     double size = fabs(value);
     int decimals = isfinite(value) && size >= LEAST ? digits - 1 - (int)floor(log10(size) + 1e-9) : 0;
     sp_markup_decimals(text, value, decimals < 0 ? 0 : decimals > MOST_DECIMALS ? MOST_DECIMALS : decimals);
+}
+
+void sp_markup_water(sp_text *text, double l_min)
+{
+    sp_markup_decimals(text, l_min, sp_water_decimals(l_min));
+}
+
+void sp_markup_water_of(sp_text *text, double l_min, double whole)
+{
+    sp_markup_decimals(text, l_min, sp_water_decimals(whole));
+}
+
+void sp_markup_water_beside(sp_text *text, double l_min, double most)
+{
+    sp_markup_decimals(text, l_min, sp_told_decimals(l_min, sp_water_decimals(most), 2));
 }
 
 void sp_markup_signed(sp_text *text, double value, int decimals)

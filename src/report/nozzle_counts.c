@@ -1,7 +1,9 @@
 /* Coverage against number of nozzles: every nozzle more is a hole in the vessel, whatever its water. */
 #include "page.h"
 
-static void add_row(sp_text *text, const sp_front_point *point, double whole, const sp_page *page)
+/* `most`: the last of the table's rows, as exactly as which the others are told. */
+static void add_row(sp_text *text, const sp_front_point *point, const sp_front_point *most, double whole,
+                    const sp_page *page)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", point->nozzles);
     if (page->alternatives)
@@ -9,11 +11,11 @@ static void add_row(sp_text *text, const sp_front_point *point, double whole, co
     sp_text_add(text, "<td>");
     sp_markup_decimals(text, 100 * point->area / whole, 1);
     sp_text_add(text, "&nbsp;%%</td><td>");
-    sp_markup_decimals(text, 6e4 * point->flow, 1);
+    sp_markup_water_beside(text, 6e4 * point->flow, 6e4 * most->flow);
     sp_text_add(text, "&nbsp;L/min</td>");
     if (page->costly) {
         sp_text_add(text, "<td>");
-        sp_markup_decimals(text, 6e4 * point->outlay, 1);
+        sp_markup_water_beside(text, 6e4 * point->outlay, 6e4 * most->outlay);
         sp_text_add(text, "&nbsp;L/min</td>");
     }
     sp_text_add(text, "</tr>\n");
@@ -35,7 +37,8 @@ static void add_table(const sp_page *page, sp_text *text, size_t design)
                 page->alternatives ? "<th scope=\"col\">New fittings</th>" : "",
                 page->costly ? "<th scope=\"col\">Price</th>" : "");
     for (size_t i = 0; i < proposal->by_number_count; ++i)
-        add_row(text, &proposal->by_number[i], page->figures[design].clean_area, page);
+        add_row(text, &proposal->by_number[i], &proposal->by_number[proposal->by_number_count - 1],
+                page->figures[design].clean_area, page);
     sp_text_add(text, "</tbody></table>\n");
 }
 

@@ -84,7 +84,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text, "<br><span class=\"unit\">");
     sp_page_coverage(text, &page->figures[design]);
     sp_text_add(text, " with ");
-    sp_markup_decimals(text, 6e4 * page->figures[design].flow, 1);
+    sp_markup_water(text, 6e4 * page->figures[design].flow);
     sp_text_add(text, "&nbsp;L/min</span></figcaption></figure>\n");
     return true;
 }

@@ -85,38 +85,40 @@ static double largest(const sp_figures *f)
 typedef struct {
     const char *title, *unit;
     measure *value;
-    int digits; /* decimals for percentages and counts, else significant digits */
-    bool decimal;
-    bool points; /* differences in percentage points */
+    enum { DECIMALS, SIGNIFICANT, WATER } told; /* percentages and counts with decimals, most with significant digits */
+    int digits;                                 /* of the first two */
+    bool points;                                /* differences in percentage points */
 } row;
 
 static const row rows[] = {
-    {"Coverage of the surface to be cleaned", "%", of_clean, 1, true, true},
-    {"Share of the attainable area covered", "%", of_attainable, 1, true, true},
-    {"Covered area", "m\xc2\xb2", covered, 4, false, false},
-    {"Area left uncovered", "m\xc2\xb2", uncovered, 3, false, false},
-    {"Largest uncovered region", "m\xc2\xb2", largest, 3, false, false},
-    {"Water", "L/min", water, 1, true, false},
-    {"Covered area per water", "m\xc2\xb2 per L/min", ratio, 3, false, false},
-    {"Cost of mounts", "L/min", mounts, 1, true, false},
-    {"Price: water and mounts", "L/min", price, 1, true, false},
-    {"Price: water and mounts", "", sp_figures_money, 4, false, false},
-    {"Covered area per price", "m\xc2\xb2 per L/min", per_price, 3, false, false},
-    {"Nozzles", "", nozzles, 0, true, false},
-    {"New fittings", "", fittings, 0, true, false},
-    {"Liquid flux, mean", "L/min per m\xc2\xb2", flux_mean, 3, false, false},
-    {"Liquid flux, 5th percentile", "L/min per m\xc2\xb2", flux_p05, 3, false, false},
-    {"Liquid flux, highest", "L/min per m\xc2\xb2", flux_max, 3, false, false},
-    {"Dose, mean", "L/m\xc2\xb2", dose_mean, 3, false, false},
-    {"Dose, 5th percentile", "L/m\xc2\xb2", dose_p05, 3, false, false},
-    {"Dose, highest", "L/m\xc2\xb2", dose_max, 3, false, false},
+    {"Coverage of the surface to be cleaned", "%", of_clean, DECIMALS, 1, true},
+    {"Share of the attainable area covered", "%", of_attainable, DECIMALS, 1, true},
+    {"Covered area", "m\xc2\xb2", covered, SIGNIFICANT, 4, false},
+    {"Area left uncovered", "m\xc2\xb2", uncovered, SIGNIFICANT, 3, false},
+    {"Largest uncovered region", "m\xc2\xb2", largest, SIGNIFICANT, 3, false},
+    {"Water", "L/min", water, WATER, 0, false},
+    {"Covered area per water", "m\xc2\xb2 per L/min", ratio, SIGNIFICANT, 3, false},
+    {"Cost of mounts", "L/min", mounts, WATER, 0, false},
+    {"Price: water and mounts", "L/min", price, WATER, 0, false},
+    {"Price: water and mounts", "", sp_figures_money, SIGNIFICANT, 4, false},
+    {"Covered area per price", "m\xc2\xb2 per L/min", per_price, SIGNIFICANT, 3, false},
+    {"Nozzles", "", nozzles, DECIMALS, 0, false},
+    {"New fittings", "", fittings, DECIMALS, 0, false},
+    {"Liquid flux, mean", "L/min per m\xc2\xb2", flux_mean, SIGNIFICANT, 3, false},
+    {"Liquid flux, 5th percentile", "L/min per m\xc2\xb2", flux_p05, SIGNIFICANT, 3, false},
+    {"Liquid flux, highest", "L/min per m\xc2\xb2", flux_max, SIGNIFICANT, 3, false},
+    {"Dose, mean", "L/m\xc2\xb2", dose_mean, SIGNIFICANT, 3, false},
+    {"Dose, 5th percentile", "L/m\xc2\xb2", dose_p05, SIGNIFICANT, 3, false},
+    {"Dose, highest", "L/m\xc2\xb2", dose_max, SIGNIFICANT, 3, false},
 };
 
 static void add_value(const sp_page *page, sp_text *text, const row *r, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
     sp_text_add(text, "<td%s>", sp_page_column(page, design));
-    if (r->decimal)
+    if (r->told == WATER)
+        sp_markup_water(text, r->value(figures));
+    else if (r->told == DECIMALS)
         sp_markup_decimals(text, r->value(figures), r->digits);
     else
         sp_markup_significant(text, r->value(figures), r->digits);
@@ -220,7 +222,7 @@ static void add_nozzle(sp_text *text, const sp_nozzle_figures *n, bool codes)
     const double deg = 180 / M_PI;
     const double values[] = {n->position.x, n->position.y,  n->position.z,     n->axis.x,       n->axis.y, n->axis.z,
                              n->roll * deg, n->angle * deg, n->pressure / 1e5, n->flow * L_MIN, n->speed};
-    const int decimals[] = {3, 3, 3, 3, 3, 3, 1, 1, 2, 2, 1};
+    const int decimals[] = {3, 3, 3, 3, 3, 3, 1, 1, 2, sp_told_decimals(L_MIN * n->flow, 2, 3), 1};
     sp_text_add(text, "<tr>");
     add_text_cell(text, "th scope=\"row\"", n->name);
     add_type(text, n);
@@ -247,7 +249,7 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
         sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\" data-design=\"%zu\"><caption>", i);
         sp_page_name(page, text, i);
         sp_text_add(text, ": %zu nozzle%s, ", figures->nozzle_count, figures->nozzle_count == 1 ? "" : "s");
-        sp_markup_decimals(text, L_MIN * figures->flow, 1);
+        sp_markup_water(text, L_MIN * figures->flow);
         sp_text_add(
             text,
             "&nbsp;L/min</caption>\n<thead><tr><th scope=\"col\">Name</th><th scope=\"col\" "

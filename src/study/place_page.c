@@ -108,7 +108,7 @@ static void add_group(sp_text *text, const sp_study *study, size_t first)
     sp_text_add(text, "</th>");
     for (size_t i = 0; i < IN_GROUP; i++) {
         sp_text_add(text, "<td>");
-        sp_markup_decimals(text, i < count ? water_of(&places[i]) : NAN, 1);
+        sp_markup_water(text, i < count ? water_of(&places[i]) : NAN);
         sp_text_add(text, "</td>");
     }
     add_range(text, places, count, coverage_of, 2);

@@ -1,6 +1,8 @@
 /* The study as plain tables for a terminal. */
 #include "words.h"
 
+#include <sprayplan/result.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -76,8 +78,8 @@ static void add_places(sp_text *text, const sp_study *study)
         sp_text words = {0};
         sp_words_place(&words, place);
         add_name(text, &words, WIDTH);
-        sp_text_add(text, " %11.1f %10.2f %11.2f %9.2f %9.2f %9s\n", 6e4 * place->water, 100 * place->coverage,
-                    100 * place->confirmed, place->seconds, place->cpu,
+        sp_text_add(text, " %11.*f %10.2f %11.2f %9.2f %9.2f %9s\n", sp_water_decimals(6e4 * place->water),
+                    6e4 * place->water, 100 * place->coverage, 100 * place->confirmed, place->seconds, place->cpu,
                     place->limited       ? "its limit"
                     : place->ended_early ? "yes"
                                          : "");

@@ -234,8 +234,9 @@ static json_t *head_json(const sp_page *page, size_t design)
 {
     sp_text name = {0}, quote = {0};
     sp_page_plain_name(page, &name, design);
-    sp_text_add(&quote, "%.1f %% with %.1f L/min", 100 * page->figures[design].coverage,
-                6e4 * page->figures[design].flow);
+    sp_text_add(&quote, "%.1f %% with ", 100 * page->figures[design].coverage);
+    sp_markup_water(&quote, 6e4 * page->figures[design].flow);
+    sp_text_add(&quote, " L/min");
     json_t *object = NULL;
     if (!name.failed && !quote.failed)
         object = json_pack("{s:I, s:s, s:s, s:b, s:b}", "index", (json_int_t)design, "name", name.text, "quote",

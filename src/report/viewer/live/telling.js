@@ -5,7 +5,14 @@ function makeTelling(live) {
 
     const short = (value, digits = 4) => String(Number(value.toPrecision(digits)));
     const percent = (share) => `${(100 * share).toFixed(2)} %`;
-    const litres = (flow) => `${(LITRES * flow).toFixed(1)} L/min`;
+    /* As the page's tables tell water: the tenth from 10 L/min on, three significant digits below; 0 with nothing. */
+    function waterDecimals(value) {
+        let decimals = 1;
+        while (value >= 0.5e-9 && decimals < 9 && value < 10 ** (2 - decimals) - 0.5 * 10 ** (-decimals - 1))
+            decimals++;
+        return decimals;
+    }
+    const litres = (flow) => `${(LITRES * flow).toFixed(waterDecimals(LITRES * flow))} L/min`;
 
     /* Water, and what the mounts of the nozzles that are on cost, in m³/s. */
     const priceOf = (flow) => live.nozzles.reduce((sum, {on, cost}) => sum + (on && cost || 0), flow);

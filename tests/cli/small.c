@@ -1,0 +1,105 @@
+/* A vessel of 80 mm, washed by nozzles of hundredths of a litre a minute: page and terminal tell of it as well as of a
+ * large one. */
+#include "results.h"
+
+#include <math.h>
+
+static const char small_yaml[] =
+    "geometry:\n"
+    "  - {file: room.obj, scale: 0.08}\n"
+    "cavity: [40 mm, 40 mm, 40 mm]\n"
+    "criterion: {flux: 1 L/min/m2}\n"
+    "catalogue: drops.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: drop, position: [40 mm, 40 mm, 72 mm], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "simulate: {texel: 4 mm}\n"
+    "place:\n"
+    "  coverage: 70 %\n"
+    "  max_nozzles: 2\n"
+    "  pressure: 2 bar\n"
+    "  refine: none\n"
+    "  mounts:\n"
+    "    - port: {name: P1, position: [24 mm, 24 mm, 76 mm], axis: [0, 0, -1], tilt: 30 deg}\n"
+    "    - port: {name: P2, position: [56 mm, 56 mm, 76 mm], axis: [0, 0, -1], tilt: 30 deg}\n";
+
+static const char drops_yaml[] = "nozzles:\n"
+                                 "  - {name: drop, pattern: full_cone, angle: 120 deg, flow: 0.04 L/min, at: 2 bar}\n"
+                                 "  - {name: wide, pattern: full_cone, angle: 160 deg, flow: 0.06 L/min, at: 2 bar}\n";
+
+static char *terminal, *page;
+static json_t *result;
+
+static int place_once(void **state)
+{
+    if (open_workplace(state) != 0)
+        return -1;
+    write_file("small.yaml", small_yaml);
+    write_file("drops.yaml", drops_yaml);
+    outcome done = run_program("place small.yaml -o small");
+    terminal = done.out;
+    free(done.err);
+    page = read_file("small/report.html", NULL);
+    result = json_file("small/result.json");
+    return page ? 0 : -1;
+}
+
+static int put_away(void **state)
+{
+    json_decref(result);
+    free(terminal);
+    free(page);
+    return close_workplace(state);
+}
+
+static void expect_text(const char *text, const char *expected)
+{
+    if (!strstr(text, expected))
+        fail_msg("nowhere: %s", expected);
+}
+
+/* What is told of a layout's water, wherever it is told. */
+static void no_water_is_told_as_nothing(void **state)
+{
+    (void)state;
+    double water = number(layout_named(result, "proposed"), "water_l_min");
+    char text[512];
+    assert_true(fabs(water - 0.1) < 0.03);
+    assert_null(strstr(page, "0.0&nbsp;L/min"));
+    assert_null(strstr(page, "0.1&nbsp;L/min"));
+    assert_null(strstr(page, "with 0.0 L/min"));
+    expect_text(page, "with <strong>0.0400&nbsp;L/min</strong>");
+    expect_text(page, "<div class=\"against\">manual 0.0400 L/min (");
+    expect_text(page, "\"quote\":\"");
+    snprintf(text, sizeof text, " %% with %.*f L/min\"", water < 0.09995 ? 4 : 3, water);
+    expect_text(page, text);
+    row_of("small", "<th scope=\"row\">N1</th><td>", text);
+    expect_text(text, "N1</th><td>0.0400</td>");
+    expect_text(terminal, "       0.0400 ");
+    snprintf(text, sizeof text, " %12.*f ", water < 0.09995 ? 4 : 3, water);
+    expect_text(terminal, text);
+    expect_text(terminal, "0.0400 100.0 %       0.0000   0.0 %");
+}
+
+/* The bound is told on page and terminal, rounded down by less than a hundredth of it. */
+static void what_is_proved_is_told(void **state)
+{
+    (void)state;
+    double bound = number(json_object_get(result, "certificate"), "water_bound_same_coverage_l_min"), told;
+    const char *at = strstr(page, "<section id=\"certificate\">");
+    assert_true(bound > 0.01 && bound < 0.1);
+    assert_non_null(at = strstr(at, " with less than "));
+    assert_int_equal(sscanf(at, " with less than %lf", &told), 1);
+    assert_true(told <= bound + 1e-9 && told > 0.98 * bound);
+    assert_non_null(at = strstr(terminal, " with less than "));
+    assert_int_equal(sscanf(at, " with less than %lf", &told), 1);
+    assert_true(told <= bound + 1e-9 && told > 0.98 * bound);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_water_is_told_as_nothing),
+        cmocka_unit_test(what_is_proved_is_told),
+    };
+    return cmocka_run_group_tests(tests, place_once, put_away);
+}
