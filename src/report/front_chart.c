@@ -118,13 +118,36 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t 
     }
 }
 
+/* Whether a line is drawn of what is proved of a design's front. */
+static bool has_bound(const sp_page *page, size_t design)
+{
+    const sp_proposal *proposal = front_of(page, design);
+    return proposal && proposal->certificate.computed && proposal->front_count > 0;
+}
+
+/* Fronts, and how many of them have such a line: each alternative is searched, and proved, for itself. */
+typedef struct {
+    size_t fronts, bounds;
+} drawn_lines;
+
+static drawn_lines count_lines(const sp_page *page)
+{
+    drawn_lines lines = {0};
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *proposal = front_of(page, i);
+        lines.fronts += proposal && proposal->front_count > 0;
+        lines.bounds += has_bound(page, i);
+    }
+    return lines;
+}
+
 /* What is proved that no layout exceeds: of a price the bound at the point to its right, up to the last of them. A
  * point's own says nothing of what costs more. */
 static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
-    const sp_proposal *proposal = front_of(page, design);
-    if (!proposal || !proposal->certificate.computed || proposal->front_count == 0)
+    if (!has_bound(page, design))
         return;
+    const sp_proposal *proposal = front_of(page, design);
     sp_text_add(text, "<path class=\"bound\"");
     add_stroke(page, text, design);
     sp_text_add(text, " d=\"");
@@ -153,9 +176,8 @@ static void add_marker(sp_text *text, double x, double y, size_t shape, const ch
 /* Lines of a legend; 0: none. */
 static size_t legend_lines(const sp_page *page)
 {
-    const sp_proposal *proposal = page->result->proposal;
     size_t count = page->result->design_count;
-    return count > MANY ? 0 : count + (proposal ? 1 + proposal->certificate.computed : 0);
+    return count > MANY ? 0 : count + (page->result->proposal ? 1 + (count_lines(page).bounds > 0) : 0);
 }
 
 /* Characters of a legend's longest line, more or less. */
@@ -219,7 +241,7 @@ static void add_lines_legend(const sp_page *page, sp_text *text)
                 "<path class=\"front\" d=\"M%g %.1fh20\"/><circle class=\"point\" cx=\"%g\" cy=\"%.1f\" "
                 "r=\"3.5\"/><text class=\"legend\" x=\"%g\" y=\"%.1f\">Best found for rising %s</text>\n",
                 x - 26, y - 4, x - 16, y - 4, x, y, page->costly ? "price" : "water");
-    if (!page->result->proposal->certificate.computed)
+    if (count_lines(page).bounds == 0)
         return;
     legend_place(page, count + 1, &x, &y);
     sp_text_add(text,
@@ -247,6 +269,24 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
         add_lines_legend(page, text);
 }
 
+static void add_note(const sp_page *page, sp_text *text)
+{
+    drawn_lines lines = count_lines(page);
+    sp_text_add(text,
+                "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more %s. ",
+                page->costly ? "for as low a price" : "with as little water");
+    if (lines.bounds > 0)
+        sp_text_add(text, "The dashed line is what no layout of the candidates exceeds, up to the last dot, counted on "
+                          "the texels of the certificate below.");
+    else
+        sp_text_add(text, "How far the best possible may lie above is not known.");
+    if (page->alternatives)
+        sp_text_add(text, " Each alternative has its own, in its colour.");
+    if (lines.bounds > 0 && lines.bounds < lines.fronts)
+        sp_text_add(text, " Where it has no dashed line, how far the best possible may lie above is not known.");
+    sp_text_add(text, "</p>\n");
+}
+
 void sp_page_front_chart(const sp_page *page, sp_text *text)
 {
     bool front = page->result->proposal && page->result->proposal->front_count > 0;
@@ -266,14 +306,6 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
     add_designs(page, text, &a);
     sp_text_add(text, "</svg>\n");
     if (front)
-        sp_text_add(text,
-                    "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more %s. "
-                    "%s%s</p>\n",
-                    page->costly ? "for as low a price" : "with as little water",
-                    page->result->proposal->certificate.computed
-                        ? "The dashed line is what no layout of the candidates exceeds, up to the last dot, counted on "
-                          "the texels of the certificate below."
-                        : "How far the best possible may lie above is not known.",
-                    page->alternatives ? " Each alternative has its own, in its colour." : "");
+        add_note(page, text);
     sp_text_add(text, "</section>\n");
 }

@@ -846,6 +846,59 @@ static void a_certificate_is_told_in_full(void **state)
     free(text);
 }
 
+/* The chart's section of a result of two alternatives, of which `proved` many have a certificate, the proposed one
+ * last; the caller frees. */
+static char *chart_of_alternatives(const fixture *f, size_t proved)
+{
+    sp_error error = {0};
+    bool fittings[4] = {true};
+    sp_proposal proposals[2] = {f->proposal, f->proposal};
+    sp_front_point front[3];
+    memcpy(front, f->front, sizeof front);
+    for (int i = 0; i < 3; i++)
+        front[i].counted = front[i].bound = front[i].every_aim_bound = 8;
+    sp_design designs[2] = {f->designs[1], f->designs[2]};
+    for (size_t i = 0; i < 2; i++) {
+        designs[i].name = i ? "of two" : "of one";
+        designs[i].alternative = &proposals[i];
+        proposals[i].layout = f->layouts[1 + i];
+        proposals[i].coverage = f->coverages[1 + i];
+        proposals[i].front = front;
+        proposals[i].fittings = fittings;
+        if (i < proved)
+            proposals[i].certificate = (sp_certificate){
+                .computed = true, .whole = 10, .counted = 8, .area_bound = 9, .water_bound = 5e-4, .gap = 0.1};
+    }
+    sp_result result = f->result;
+    result.designs = designs;
+    result.design_count = 2;
+    result.proposal = &proposals[1];
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error), *chart = html ? strstr(html, "<section id=\"front\">") : NULL;
+    if (!chart)
+        fail_msg("%s", error.message);
+    *strstr(chart, "</section>") = 0;
+    chart = strdup(chart);
+    free(html);
+    return chart;
+}
+
+/* Whichever alternative is proposed. */
+static void lines_that_are_drawn_are_explained(void **state)
+{
+    static const char entry[] = ">Proved: none covers more</text>", dashed[] = "The dashed line is what no layout",
+                      unknown[] = "how far the best possible may lie above is not known";
+    for (size_t proved = 0; proved < 3; proved++) {
+        char *chart = chart_of_alternatives(*state, proved);
+        assert_int_equal(occurrences(chart, "<path class=\"bound\""), proved ? proved + 1 : 0);
+        assert_int_equal(occurrences(chart, entry), proved > 0);
+        assert_int_equal(occurrences(chart, dashed), proved > 0);
+        assert_int_equal(occurrences(chart, unknown), proved == 1);
+        assert_int_equal(occurrences(chart, "How far the best possible may lie above is not known"), proved == 0);
+        free(chart);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -868,6 +921,7 @@ int main(void)
         cmocka_unit_test(limits_are_told_from_faults),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
+        cmocka_unit_test(lines_that_are_drawn_are_explained),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
