@@ -40,13 +40,15 @@ bool sp_page_swabs(const sp_page *page, sp_text *text, sp_error *error)
     sp_text_add(text, "<section id=\"swabs\"><h2>Where to take samples</h2>\n<div class=\"wide\"><table "
                       "class=\"numbers small\"><caption>");
     sp_page_name(page, text, page->main);
-    sp_text_add(text,
-                ": the %zu worst places</caption>\n<thead><tr><th scope=\"col\">No.</th><th scope=\"col\" "
-                "class=\"text\">Part</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
-                "scope=\"col\">z&nbsp;m</th><th scope=\"col\">%% of the criterion</th><th scope=\"col\">L/min "
-                "per m\xc2\xb2</th><th scope=\"col\">m/s</th><th scope=\"col\">incidence&nbsp;&deg;</th><th "
-                "scope=\"col\" class=\"text\">Lacks</th></tr></thead>\n<tbody>\n",
-                count);
+    if (count == 1)
+        sp_text_add(text, ": the worst place");
+    else
+        sp_text_add(text, ": the %zu worst places", count);
+    sp_text_add(text, "</caption>\n<thead><tr><th scope=\"col\">No.</th><th scope=\"col\" "
+                      "class=\"text\">Part</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
+                      "scope=\"col\">z&nbsp;m</th><th scope=\"col\">%% of the criterion</th><th scope=\"col\">L/min "
+                      "per m\xc2\xb2</th><th scope=\"col\">m/s</th><th scope=\"col\">incidence&nbsp;&deg;</th><th "
+                      "scope=\"col\" class=\"text\">Lacks</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < count; ++i)
         add_swab(text, i + 1, &swabs[i]);
     sp_text_add(text, "</tbody></table></div>\n<p class=\"note\">The places that receive the least share of what the "

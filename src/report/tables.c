@@ -337,14 +337,18 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
                     figures->shadows_known ? "no uncovered region" : "uncovered regions are not told");
         return;
     }
+    if (shown == 1)
+        sp_text_add(text, ": the largest uncovered region");
+    else
+        sp_text_add(text, ": the %zu largest uncovered regions", shown);
     sp_text_add(text,
-                ": the %zu largest uncovered regions</caption>\n<thead><tr><th scope=\"col\">No.</th><th scope=\"col\" "
+                "</caption>\n<thead><tr><th scope=\"col\">No.</th><th scope=\"col\" "
                 "class=\"text\">Part</th><th "
                 "scope=\"col\">cm\xc2\xb2</th><th scope=\"col\">%% of the surface</th><th scope=\"col\">x&nbsp;m</th>"
                 "<th scope=\"col\">y&nbsp;m</th><th scope=\"col\">z&nbsp;m</th><th scope=\"col\" class=\"text\">"
                 "Lacks</th><th scope=\"col\" class=\"text\">Most from</th><th scope=\"col\" class=\"text\">"
                 "Attainable</th>%s</tr></thead>\n<tbody>\n",
-                shown, any_remedy(figures) ? "<th scope=\"col\" class=\"text\">One more nozzle</th>" : "");
+                any_remedy(figures) ? "<th scope=\"col\" class=\"text\">One more nozzle</th>" : "");
     for (size_t i = 0; i < shown; ++i)
         add_shadow(text, figures, i);
     sp_text_add(text, "</tbody></table></div>\n");

@@ -292,6 +292,22 @@ static void a_digest_is_sha_256(void **state)
     assert_string_equal(error.file, path);
 }
 
+/* "The 1 largest uncovered regions" of one would be none of a page's words. */
+static void the_only_shadow_is_told_as_one(void **state)
+{
+    (void)state;
+    stage s;
+    sp_error error = {0};
+    open_stage(&s, true, anything, &middle, 1);
+    sp_result result = {.command = "simulate", .scene = "floor.yaml", .design_count = 1, .designs = &s.design};
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error);
+    assert_non_null(html);
+    assert_non_null(strstr(html, ": the largest uncovered region</caption>"));
+    free(html);
+    close_stage(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,6 +320,7 @@ int main(void)
         cmocka_unit_test(swabs_of_a_clean_floor_have_least_to_spare),
         cmocka_unit_test(swabs_of_a_dry_floor_are_spread),
         cmocka_unit_test(a_digest_is_sha_256),
+        cmocka_unit_test(the_only_shadow_is_told_as_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
