@@ -354,23 +354,49 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
+/* What of the columns some design's table has, or has no answers in. */
+typedef struct {
+    bool remedies; /* one more nozzle was looked for */
+    bool no_most;  /* what each nozzle brings was not worked out */
+} shadow_columns;
+
+static shadow_columns columns_of(const sp_page *page)
+{
+    shadow_columns columns = {0};
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_figures *figures = &page->figures[i];
+        columns.remedies |= any_remedy(figures);
+        columns.no_most |= figures->shadow_count && figures->nozzle_count && !isfinite(figures->nozzles[0].lost);
+    }
+    return columns;
+}
+
+/* What the columns mean, of those that are there. */
+static void add_shadow_notes(const sp_page *page, sp_text *text)
+{
+    shadow_columns columns = columns_of(page);
+    sp_text_add(text, "<p>Connected regions that do not meet the criterion, with the middle of each, numbered as in "
+                      "the pictures. What most of a region lacks: a nozzle of the layout in reach (nothing arrives "
+                      "there), or what arrives is too slow, too slanted or too little. Most from: the nozzle that by "
+                      "itself brings the region most liquid, and is nearest to mending it");
+    if (columns.no_most)
+        sp_text_add(text, "; a dash: none does, or what each nozzle brings was not worked out");
+    sp_text_add(text,
+                ". A region that is not attainable is out of reach of every allowed nozzle at the mounting points "
+                "looked at, within the limits of number and water: a matter of the %s, the mounts or these limits, not "
+                "of the layout. ",
+                sp_page_cleaned(page));
+    if (columns.remedies)
+        sp_text_add(text, "One more nozzle: of the candidates looked at the one that, beside the layout's own, covers "
+                          "most of the region, how much of it and for how much water, whatever number and water are "
+                          "allowed. ");
+    sp_text_add(text, "All that result.json lists are in that file.</p>\n");
+}
+
 void sp_page_shadows(const sp_page *page, sp_text *text)
 {
-    sp_text_add(
-        text,
-        "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
-        "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
-        "nozzle of the layout in "
-        "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
-        "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
-        "not attainable is out of reach of every "
-        "allowed nozzle at the mounting points looked at, within the limits of number and water: a matter of the %s, "
-        "the mounts or these limits, not of the layout. One more nozzle: of "
-        "the candidates looked at the one that, beside the "
-        "layout's own, covers most of the region, how much of it and for how much water, whatever number and "
-        "water are allowed. All that result.json lists are in "
-        "that file.</p>\n",
-        sp_page_cleaned(page));
+    sp_text_add(text, "<section id=\"shadows\"><h2>Spray shadows</h2>\n");
+    add_shadow_notes(page, text);
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_shadows(page, text, i);
     sp_text_add(text, "</section>\n");

@@ -899,6 +899,29 @@ static void lines_that_are_drawn_are_explained(void **state)
     }
 }
 
+/* Notes tell of columns that are there, and why one has no answers. */
+static void notes_on_shadows_fit_their_columns(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_remedy remedy = {.nozzle = f->layouts[2]->nozzles[0], .area = 0.01, .flow = 2e-4};
+    sp_design design = f->designs[0];
+    sp_result result = {.command = "simulate", .scene = "v.yaml", .design_count = 1, .designs = &design};
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "<section id=\"shadows\">"));
+    assert_null(strstr(html, "One more nozzle"));
+    assert_null(strstr(html, "what each nozzle brings was not worked out"));
+    free(html);
+    design.remedies = &remedy;
+    design.remedy_count = 1;
+    design.contributions = NULL;
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "One more nozzle: of the candidates"));
+    assert_non_null(strstr(html, "; a dash: none does, or what each nozzle brings was not worked out."));
+    free(html);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -922,6 +945,7 @@ int main(void)
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
         cmocka_unit_test(lines_that_are_drawn_are_explained),
+        cmocka_unit_test(notes_on_shadows_fit_their_columns),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
