@@ -2,6 +2,7 @@
 #include "page.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define L_MIN 6e4 /* L/min per m³/s */
 
@@ -32,6 +33,17 @@ static size_t count_of(const sp_page *page)
     return count;
 }
 
+/* Escaped; no line ends between a number and its per cent sign. */
+static void add_why(sp_text *text, char *why)
+{
+    for (char *space; (space = strstr(why, " %")); why = space + 1) {
+        *space = 0;
+        sp_markup_escape(text, why);
+        sp_text_add(text, "&nbsp;");
+    }
+    sp_markup_escape(text, why);
+}
+
 void sp_page_choice(const sp_page *page, sp_text *text)
 {
     char why[SP_CHOICE_TEXT];
@@ -39,7 +51,7 @@ void sp_page_choice(const sp_page *page, sp_text *text)
     sp_text_add(text, "Of %zu alternatives, <strong>", count_of(page));
     add_own_name(page, text, page->main);
     sp_text_add(text, "</strong> is proposed: ");
-    sp_markup_escape(text, why);
+    add_why(text, why);
     sp_text_add(text, ". It ");
 }
 

@@ -922,6 +922,31 @@ static void notes_on_shadows_fit_their_columns(void **state)
     free(html);
 }
 
+/* "80 %" and the like, which must not part at a line's end. */
+static void a_number_keeps_its_per_cent_sign(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    bool fittings[4] = {true};
+    sp_proposal proposal = f->proposal;
+    sp_design design = f->designs[2];
+    sp_result result = f->result;
+    proposal.fittings = fittings;
+    proposal.asked_area = 0.8 * f->coverages[2]->area;
+    design.name = "of one";
+    design.alternative = &proposal;
+    result.proposal = &proposal;
+    result.designs = &design;
+    result.design_count = 1;
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error);
+    const char *head = strstr(html, "</strong> is proposed: ");
+    assert_non_null(head);
+    assert_non_null(strstr(head, " the 80&nbsp;% asked for, "));
+    assert_null(strstr(head, "80 % asked"));
+    free(html);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -946,6 +971,7 @@ int main(void)
         cmocka_unit_test(a_certificate_is_told_in_full),
         cmocka_unit_test(lines_that_are_drawn_are_explained),
         cmocka_unit_test(notes_on_shadows_fit_their_columns),
+        cmocka_unit_test(a_number_keeps_its_per_cent_sign),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
