@@ -224,6 +224,10 @@ SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
 /* Decimals that a value is told with: `least`, or where these would leave fewer than `digits` significant digits of it
  * as many as do, up to 9. `least` of what is not finite, or 0 with all of these. */
 SP_API int sp_told_decimals(double value, int least, int digits);
+/* Decimals of places in m, and of areas in m², of the geometry that a layout is in: `least` where its surface to be
+ * cleaned is 1 m² or more, and of less as many more as tell places and areas on it as well. */
+SP_API int sp_place_decimals(const sp_figures *figures, int least);
+SP_API int sp_area_decimals(const sp_figures *figures, int least);
 /* The same of water in L/min: the tenth from 10 L/min on, three significant digits below. */
 SP_API int sp_water_decimals(double l_min);
 /* What is proved that none takes less than, in L/min, rounded down to these decimals. */

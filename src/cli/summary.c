@@ -62,12 +62,13 @@ static void print_figures(const sp_figures *figures, const char *name, int width
 {
     printf("%-*s %8zu", width, name, figures->nozzle_count);
     print_water(12, figures->flow, figures->flow);
-    printf(" %13.3f %10.1f", figures->covered_area, 100 * figures->coverage);
+    printf(" %13.*f %10.1f", sp_area_decimals(figures, 3), figures->covered_area, 100 * figures->coverage);
     if (!isnan(figures->of_attainable))
         printf(" %15.1f", 100 * figures->of_attainable);
     else
         printf(" %15s", "");
-    printf(" %14.4f", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
+    double ratio = isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4;
+    printf(" %14.*f", sp_told_decimals(ratio, 4, 3), ratio);
     print_price(figures);
     printf("\n");
 }
@@ -173,7 +174,7 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
             printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
                    "astray L/min", "per girth L/min/m");
         told = true;
-        printf("%-*s %12.3f", width, result->designs[i].name, film->area);
+        printf("%-*s %12.*f", width, result->designs[i].name, sp_area_decimals(&figures[i], 3), film->area);
         print_water(16, film->left, figures[i].flow);
         print_water(16, film->held, figures[i].flow);
         print_water(16, film->astray, figures[i].flow);
@@ -259,34 +260,37 @@ enum { PARTS_NAMED = 3 };
 static void print_parts(const sp_figures *figures, sp_reason reason)
 {
     double left = figures->missing_area[reason];
+    int digits = sp_area_decimals(figures, 4);
     size_t part = SIZE_MAX;
     for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SIZE_MAX; i++) {
-        printf("%s%s %.4f", i ? ", " : ": ", figures->missing[part].part, figures->missing[part].areas[reason]);
+        printf("%s%s %.*f", i ? ", " : ": ", figures->missing[part].part, digits, figures->missing[part].areas[reason]);
         left -= figures->missing[part].areas[reason];
     }
-    if (left > 5e-5)
-        printf(", other parts %.4f", left);
+    if (left > 0.5 * pow(10, -digits))
+        printf(", other parts %.*f", digits, left);
 }
 
 /* What no layout can cover, by reason and part; `name` of the alternative, "" for none. */
 static void print_missing(const sp_figures *figures, const sp_proposal *proposal, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
+    int digits = sp_area_decimals(figures, 4);
     if (figures->beyond_area > SP_BEYOND_TOLD * figures->clean_area)
         printf("%s%sreached by the scene's own nozzles alone, by none that is allowed: %.1f %% of the surface to be "
-               "cleaned, %.4f m2\n",
-               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, figures->beyond_area);
+               "cleaned, %.*f m2\n",
+               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, digits,
+               figures->beyond_area);
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;
-    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.4f m2\n", name,
+    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.*f m2\n", name,
            name[0] ? ": " : "", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
-           percent < 1 ? 3 : 1, percent, missing);
+           percent < 1 ? 3 : 1, percent, digits, missing);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);
         if (!text || !(figures->missing_area[reason] > 0))
             continue;
-        printf("  %.4f m2 %s", figures->missing_area[reason], text);
+        printf("  %.*f m2 %s", digits, figures->missing_area[reason], text);
         print_parts(figures, reason);
         printf("\n");
     }

@@ -246,13 +246,13 @@ static void add_fitting(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text, "</td>");
     for (int k = 0; k < 3; ++k) {
         sp_text_add(text, "<td>");
-        sp_markup_decimals(text, place[k], 3);
+        sp_markup_decimals(text, place[k], sp_place_decimals(&page->figures[design], 3));
         sp_text_add(text, "</td>");
     }
     sp_text_add(text, "<td>");
     sp_markup_water_beside(text, L_MIN * nozzle->flow, L_MIN * page->figures[design].flow);
     sp_text_add(text, "</td><td>");
-    sp_markup_decimals(text, nozzle->lost, 3);
+    sp_markup_decimals(text, nozzle->lost, sp_area_decimals(&page->figures[design], 3));
     sp_text_add(text, "</td><td>");
     sp_markup_decimals(text, 100 * nozzle->lost / page->figures[design].clean_area, 2);
     sp_text_add(text, "</td>");

@@ -24,7 +24,8 @@ typedef struct {
 
 static area_unit unit_for(double missing)
 {
-    return missing < 0.1 ? (area_unit){1e4, 1, "cm\xc2\xb2"} : (area_unit){1, 4, "m\xc2\xb2"};
+    return missing < 0.1 ? (area_unit){1e4, sp_told_decimals(1e4 * missing, 1, 2), "cm\xc2\xb2"}
+                         : (area_unit){1, 4, "m\xc2\xb2"};
 }
 
 /* The figures that speak of it; NULL where it is not known. */

@@ -1,17 +1,26 @@
 /* What each nozzle is worth: alone, and what is lost without it. */
 #include "page.h"
 
+#define LEAST_SHARE 0.5e-4 /* of the surface, that is told as more than 0.00 points */
+
 static bool is_known(const sp_figures *figures)
 {
     return figures->nozzle_count > 0 && isfinite(figures->nozzles[0].lost);
 }
 
-static void add_area(sp_text *text, double area, double whole, bool lost)
+/* What is told as more than no points is told as more than no area. */
+static int area_decimals(double area, const sp_figures *layout)
+{
+    int decimals = sp_area_decimals(layout, 3);
+    return area >= LEAST_SHARE * layout->clean_area ? sp_told_decimals(area, decimals, 1) : decimals;
+}
+
+static void add_area(sp_text *text, double area, const sp_figures *layout, bool lost)
 {
     sp_text_add(text, "<td>");
-    sp_markup_decimals(text, area, 3);
+    sp_markup_decimals(text, area, area_decimals(area, layout));
     sp_text_add(text, "</td><td>");
-    sp_markup_decimals(text, 100 * area / whole, lost ? 2 : 1);
+    sp_markup_decimals(text, 100 * area / layout->clean_area, lost ? 2 : 1);
     sp_text_add(text, "</td>");
 }
 
@@ -29,16 +38,15 @@ void sp_page_cost_cells(sp_text *text, const sp_nozzle_figures *nozzle, double w
 
 static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, const sp_figures *layout, bool costly)
 {
-    double whole = layout->clean_area;
     sp_text_add(text, "<tr><th scope=\"row\">");
     sp_markup_escape(text, nozzle->name);
     sp_text_add(text, "</th><td>");
     sp_markup_water_beside(text, 6e4 * nozzle->flow, 6e4 * layout->flow);
     sp_text_add(text, "</td>");
-    add_area(text, nozzle->alone, whole, false);
-    add_area(text, nozzle->lost, whole, true);
+    add_area(text, nozzle->alone, layout, false);
+    add_area(text, nozzle->lost, layout, true);
     if (costly)
-        sp_page_cost_cells(text, nozzle, whole);
+        sp_page_cost_cells(text, nozzle, layout->clean_area);
     sp_text_add(text, "</tr>\n");
 }
 

@@ -27,8 +27,7 @@ static double per_girth(const sp_figures *f)
 
 static int area_decimals(const sp_figures *f)
 {
-    (void)f;
-    return 3;
+    return sp_area_decimals(f, 3);
 }
 /* Of parts of the layout's water. */
 static int water_decimals(const sp_figures *f)
@@ -71,10 +70,12 @@ static void add_hollows(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, ": hollows and flats, where liquid stands</caption>\n<thead><tr><th scope=\"col\">Lowest place "
                       "<span class=\"unit\">(m)</span></th><th scope=\"col\">Area <span class=\"unit\">(m\xc2\xb2)"
                       "</span></th><th scope=\"col\">Drains</th></tr></thead>\n<tbody>\n");
+    const int digits = sp_place_decimals(&page->figures[design], 3);
     for (size_t i = 0; i < count; i++) {
         sp_vec3 place = sp_setup_outside(sp_evaluator_setup(evaluator), hollows[i].place);
-        sp_text_add(text, "<tr><th scope=\"row\">%.3f, %.3f, %.3f</th><td>", place.x, place.y, place.z);
-        sp_markup_decimals(text, hollows[i].area, 4);
+        sp_text_add(text, "<tr><th scope=\"row\">%.*f, %.*f, %.*f</th><td>", digits, place.x, digits, place.y, digits,
+                    place.z);
+        sp_markup_decimals(text, hollows[i].area, sp_area_decimals(&page->figures[design], 4));
         sp_text_add(text, "</td><td>%s</td></tr>\n", hollows[i].drains ? "over its rim" : "not at all");
     }
     sp_text_add(text, "</tbody></table></div>\n");

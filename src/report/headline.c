@@ -35,6 +35,13 @@ static void add_water_card(const sp_page *page, sp_text *text, const char *title
     add_card(page, text, title, "L/min", values, decimals, false);
 }
 
+/* As the table of figures, but to the thousandth where that is more exact. */
+static void add_ratio_card(const sp_page *page, sp_text *text, const double values[2])
+{
+    const int decimals[2] = {sp_told_decimals(values[0], 3, 3), sp_told_decimals(values[1], 3, 3)};
+    add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", values, decimals, false);
+}
+
 static void add_cards(const sp_page *page, sp_text *text)
 {
     const sp_figures *main = &page->figures[page->main];
@@ -45,7 +52,7 @@ static void add_cards(const sp_page *page, sp_text *text)
     const double price[2] = {6e4 * sp_page_price(main), 6e4 * sp_page_price(manual)};
     const double money[2] = {sp_figures_money(main), sp_figures_money(manual)};
     const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
-    static const int none[2] = {0, 0}, tenths[2] = {1, 1}, thousandths[2] = {3, 3};
+    static const int none[2] = {0, 0}, tenths[2] = {1, 1};
     sp_text_add(text, "<div class=\"cards\">\n");
     add_card(page, text, "Coverage", "%", coverage, tenths, true);
     add_water_card(page, text, "Water", water);
@@ -53,7 +60,7 @@ static void add_cards(const sp_page *page, sp_text *text)
         add_card(page, text, "Price", main->water_cost.currency, money, none, false);
     else if (page->costly)
         add_water_card(page, text, "Price", price);
-    add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, thousandths, false);
+    add_ratio_card(page, text, ratio);
     add_card(page, text, "Nozzles", "", count, none, false);
     sp_text_add(text, "</div>\n");
 }

@@ -3,7 +3,13 @@
 
 #include <stdlib.h>
 
-static void add_swab(sp_text *text, size_t number, const sp_swab *swab)
+/* Flux that is little beside 1 L/min per m² may be much of what the criterion asks for. */
+static int flux_decimals(const sp_criterion *criterion, double flux)
+{
+    return sp_told_decimals(6e4 * flux, sp_told_decimals(6e4 * criterion->flux, 2, 2), 1);
+}
+
+static void add_swab(sp_text *text, size_t number, const sp_swab *swab, int place, const sp_criterion *criterion)
 {
     const double values[] = {swab->place.x,
                              swab->place.y,
@@ -12,7 +18,7 @@ static void add_swab(sp_text *text, size_t number, const sp_swab *swab)
                              6e4 * swab->flux,
                              swab->speed,
                              swab->incidence * 180 / M_PI};
-    const int decimals[] = {3, 3, 3, 0, 2, 1, 0};
+    const int decimals[] = {place, place, place, 0, flux_decimals(criterion, swab->flux), 1, 0};
     char *part = sp_text_utf8(swab->part);
     const char *lack = sp_lack_text(swab->lack);
     text->failed |= !part;
@@ -49,8 +55,9 @@ bool sp_page_swabs(const sp_page *page, sp_text *text, sp_error *error)
                       "scope=\"col\">z&nbsp;m</th><th scope=\"col\">%% of the criterion</th><th scope=\"col\">L/min "
                       "per m\xc2\xb2</th><th scope=\"col\">m/s</th><th scope=\"col\">incidence&nbsp;&deg;</th><th "
                       "scope=\"col\" class=\"text\">Lacks</th></tr></thead>\n<tbody>\n");
+    const int place = sp_place_decimals(&page->figures[page->main], 3);
     for (size_t i = 0; i < count; ++i)
-        add_swab(text, i + 1, &swabs[i]);
+        add_swab(text, i + 1, &swabs[i], place, &sp_evaluator_setup(design->evaluator)->criterion);
     sp_text_add(text, "</tbody></table></div>\n<p class=\"note\">The places that receive the least share of what the "
                       "criterion asks for, of equally bad ones those deepest in a shadow, 20&nbsp;%% of the "
                       "geometry&#39;s diagonal apart where they can be, all at least 5&nbsp;%%. Flux is all that "

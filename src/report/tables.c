@@ -217,12 +217,13 @@ static void add_type(sp_text *text, const sp_nozzle_figures *n)
     sp_text_add(text, "%s</td>", n->url[0] ? "</a>" : "");
 }
 
-static void add_nozzle(sp_text *text, const sp_nozzle_figures *n, bool codes)
+static void add_nozzle(sp_text *text, const sp_figures *figures, const sp_nozzle_figures *n, bool codes)
 {
     const double deg = 180 / M_PI;
     const double values[] = {n->position.x, n->position.y,  n->position.z,     n->axis.x,       n->axis.y, n->axis.z,
                              n->roll * deg, n->angle * deg, n->pressure / 1e5, n->flow * L_MIN, n->speed};
-    const int decimals[] = {3, 3, 3, 3, 3, 3, 1, 1, 2, sp_told_decimals(L_MIN * n->flow, 2, 3), 1};
+    const int place = sp_place_decimals(figures, 3);
+    const int decimals[] = {place, place, place, 3, 3, 3, 1, 1, 2, sp_told_decimals(L_MIN * n->flow, 2, 3), 1};
     sp_text_add(text, "<tr>");
     add_text_cell(text, "th scope=\"row\"", n->name);
     add_type(text, n);
@@ -260,7 +261,7 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
             "<tbody>\n",
             codes ? "<th scope=\"col\" class=\"text\">Order code</th>" : "");
         for (size_t k = 0; k < figures->nozzle_count; ++k)
-            add_nozzle(text, &figures->nozzles[k], codes);
+            add_nozzle(text, figures, &figures->nozzles[k], codes);
         sp_text_add(text, "</tbody></table></div>\n");
     }
     sp_text_add(text, "</section>\n");
@@ -282,7 +283,7 @@ static bool any_remedy(const sp_figures *figures)
 }
 
 /* What one more nozzle would do, and where it would sit. */
-static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
+static void add_remedy(sp_text *text, const sp_figures *figures, const sp_shadow_figures *shadow)
 {
     const sp_remedy_figures *remedy = &shadow->remedy;
     sp_text_add(text, "<td class=\"text\">");
@@ -302,7 +303,7 @@ static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
     const double place[] = {remedy->position.x, remedy->position.y, remedy->position.z};
     for (int k = 0; k < 3; k++) {
         sp_text_add(text, k ? ", " : " at ");
-        sp_markup_decimals(text, place[k], 2);
+        sp_markup_decimals(text, place[k], sp_place_decimals(figures, 2));
     }
     sp_text_add(text, "&nbsp;m: %.0f&nbsp;%% for %.3g&nbsp;L/min</td>", 100 * remedy->area / shadow->area,
                 6e4 * remedy->flow);
@@ -311,9 +312,12 @@ static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
 static void add_shadow(sp_text *text, const sp_figures *figures, size_t index)
 {
     const sp_shadow_figures *shadow = &figures->shadows[index];
-    const double values[] = {shadow->area * 1e4, 100 * shadow->area / figures->clean_area, shadow->centroid.x,
-                             shadow->centroid.y, shadow->centroid.z};
-    const int decimals[] = {0, 2, 2, 2, 2};
+    const double cm2 = 1e4 * shadow->area, share = 100 * shadow->area / figures->clean_area;
+    const double values[] = {cm2, share, shadow->centroid.x, shadow->centroid.y, shadow->centroid.z};
+    const int place = sp_place_decimals(figures, 2);
+    /* as all of the surface is told, and a small region of a large one is more than nothing */
+    const int decimals[] = {sp_told_decimals(cm2, sp_told_decimals(1e4 * figures->clean_area, 0, 4), 1),
+                            sp_told_decimals(share, 2, 1), place, place, place};
     const char *reachable = shadow->reachable < 0 ? "\xe2\x80\x93" : shadow->reachable ? "yes" : "no";
     sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", index + 1);
     add_text_cell(text, "td class=\"text\"", shadow->part);
@@ -322,7 +326,7 @@ static void add_shadow(sp_text *text, const sp_figures *figures, size_t index)
     const char *reason = shadow->reachable == 0 ? sp_reason_text(figures, shadow->reason) : NULL;
     sp_text_add(text, "<td class=\"text\">%s%s%s</td>", reachable, reason ? ": " : "", reason ? reason : "");
     if (any_remedy(figures))
-        add_remedy(text, shadow);
+        add_remedy(text, figures, shadow);
     sp_text_add(text, "</tr>\n");
 }
 

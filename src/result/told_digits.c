@@ -20,6 +20,17 @@ int sp_told_decimals(double value, int least, int digits)
     return decimals;
 }
 
+/* A length that it is about as large as. */
+int sp_place_decimals(const sp_figures *figures, int least)
+{
+    return sp_told_decimals(sqrt(figures->clean_area), least, least + 1);
+}
+
+int sp_area_decimals(const sp_figures *figures, int least)
+{
+    return sp_told_decimals(figures->clean_area, least, least + 1);
+}
+
 int sp_water_decimals(double l_min)
 {
     return sp_told_decimals(l_min, 1, 3);

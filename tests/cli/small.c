@@ -95,11 +95,83 @@ static void what_is_proved_is_told(void **state)
     assert_true(told <= bound + 1e-9 && told > 0.98 * bound);
 }
 
+/* The text of the `column`th cell behind a row's head, of a row of the section `id` that begins with `head`. */
+static void cell_of(const char *id, const char *head, int column, char text[100])
+{
+    char section[64];
+    snprintf(section, sizeof section, "<section id=\"%s\">", id);
+    const char *at = strstr(page, section);
+    at = at ? strstr(at, head) : NULL;
+    for (int i = 0; at && i < column; i++) {
+        at = strstr(at, "<td");
+        at = at ? strchr(at, '>') + 1 : NULL;
+    }
+    if (!at)
+        fail_msg("no cell %d of %s in %s", column, head, id);
+    snprintf(text, 100, "%.*s", (int)strcspn(at, "<"), at);
+}
+
+static void expect_digits(const char *id, const char *head, int column, double value, int decimals)
+{
+    char found[100], expected[100];
+    cell_of(id, head, column, found);
+    snprintf(expected, sizeof expected, "%s%.*f", value < 0 ? "\xe2\x88\x92" : "", decimals, fabs(value));
+    assert_string_equal(found, expected);
+}
+
+/* Its surface is 384 cm²: tenths of millimetres and of square centimetres tell what is on it. */
+static void small_places_and_areas_are_told(void **state)
+{
+    (void)state;
+    const json_t *manual = layout_named(result, "manual"),
+                 *nozzle = json_array_get(json_object_get(manual, "nozzles"), 0),
+                 *shadow = json_array_get(json_object_get(manual, "shadows"), 0),
+                 *centroid = json_object_get(shadow, "centroid_m");
+    char text[100];
+    expect_digits("nozzles", ">N1</th>", 2, 0.04, 4);
+    expect_digits("nozzles", ">N1</th>", 4, 0.072, 4);
+    expect_digits("shadows", ">1</th>", 2, 1e4 * number(shadow, "area_m2"), 1);
+    for (int k = 0; k < 3; k++)
+        expect_digits("shadows", ">1</th>", 4 + k, json_number_value(json_array_get(centroid, (size_t)k)), 3);
+    expect_digits("contributions", ">N1</th>", 2, number(nozzle, "alone_m2"), 5);
+    expect_digits("contributions", ">N1</th>", 4, number(nozzle, "lost_without_m2"), 5);
+    cell_of("swabs", ">1</th>", 2, text);
+    assert_int_equal(strlen(strchr(text, '.')), 5);
+    /* the remedy's place stands in a sentence, at the mounting points' 24 or 56 mm */
+    assert_true(strstr(page, " at 0.024, 0.024, 0.076&nbsp;m: ") || strstr(page, " at 0.056, 0.056, 0.076&nbsp;m: "));
+    snprintf(text, sizeof text, " %13.5f ", number(manual, "covered_area_m2"));
+    expect_text(terminal, text);
+}
+
+/* By a nozzle that takes 12 L/min, area per water is millionths: the card says what the table does. */
+static void little_area_per_water_is_told(void **state)
+{
+    (void)state;
+    write_file("much.yaml", "nozzles:\n"
+                            "  - {name: drop, pattern: full_cone, angle: 120 deg, flow: 12 L/min, at: 2 bar}\n");
+    char scene[sizeof small_yaml];
+    const char *at = strstr(small_yaml, "drops");
+    snprintf(scene, sizeof scene, "%.*smuch%s", (int)(at - small_yaml), small_yaml, at + strlen("drops"));
+    write_file("much_water.yaml", scene);
+    outcome done = run_program("simulate much_water.yaml -o much");
+    forget(&done);
+    json_t *much = json_file("much/result.json");
+    double ratio = number(layout_named(much, "manual"), "area_per_water");
+    char *html = read_file("much/report.html", NULL), text[100];
+    assert_true(ratio > 0.001 && ratio < 0.01);
+    snprintf(text, sizeof text, "Area per water</div><div class=\"value\">%.5f ", ratio);
+    expect_text(html, text);
+    free(html);
+    json_decref(much);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_water_is_told_as_nothing),
         cmocka_unit_test(what_is_proved_is_told),
+        cmocka_unit_test(small_places_and_areas_are_told),
+        cmocka_unit_test(little_area_per_water_is_told),
     };
     return cmocka_run_group_tests(tests, place_once, put_away);
 }
