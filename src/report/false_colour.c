@@ -72,8 +72,9 @@ static double rounded_closely(double value)
     return steps[i] * power;
 }
 
-static double threshold_of(const sp_criterion *criterion, sp_quantity quantity)
+double sp_colour_threshold(const sp_design *design, sp_quantity quantity)
 {
+    const sp_criterion *criterion = &sp_evaluator_setup(design->evaluator)->criterion;
     switch (quantity) {
     case SP_QUANTITY_FLUX:
         return criterion->flux;
@@ -88,10 +89,37 @@ static double threshold_of(const sp_criterion *criterion, sp_quantity quantity)
     }
 }
 
+/* Keeps them in ascending order, each value once; of too many the least. */
+static int add_threshold(double thresholds[SP_COLOUR_THRESHOLDS], int count, double threshold)
+{
+    int at = 0;
+    while (at < count && thresholds[at] < threshold)
+        at++;
+    if (!(threshold > 0) || at == SP_COLOUR_THRESHOLDS || (at < count && thresholds[at] == threshold))
+        return count;
+    count += count < SP_COLOUR_THRESHOLDS;
+    for (int i = count - 1; i > at; --i)
+        thresholds[i] = thresholds[i - 1];
+    thresholds[at] = threshold;
+    return count;
+}
+
+int sp_colour_thresholds(const sp_design *designs, size_t count, sp_quantity quantity,
+                         double thresholds[SP_COLOUR_THRESHOLDS])
+{
+    int found = 0;
+    for (size_t i = 0; i < count; ++i)
+        if (designs[i].evaluator)
+            found = add_threshold(thresholds, found, sp_colour_threshold(&designs[i], quantity));
+    return found;
+}
+
 /* How the area is spread over a quantity's values, of all designs. */
 typedef struct {
     double bins[BINS]; /* m² */
     double total;
+    double least, most;    /* SI */
+    bool nothing_is_asked; /* by the criterion of some design */
 } spread;
 
 static void add_design(spread *s, const sp_design *design, sp_quantity quantity)
@@ -105,6 +133,8 @@ static void add_design(spread *s, const sp_design *design, sp_quantity quantity)
             continue;
         double bin = fmin(fmax((log10(value) - LOWEST) * BINS_A_DECADE, 0), BINS - 1);
         s->bins[(int)bin] += patches->area[k];
+        s->least = s->total > 0 ? fmin(s->least, value) : value;
+        s->most = fmax(s->most, value);
         s->total += patches->area[k];
     }
 }
@@ -122,8 +152,9 @@ static void set_ends(sp_colour_scale *scale, const spread *s)
         scale->high = angle ? M_PI / 2 : quantity == SP_QUANTITY_COVERED ? 1 : rounded_closely(most) / unit;
         return;
     }
-    if (s->total > 0 && quantity == SP_QUANTITY_FLUX && scale->threshold > 0)
-        least = unit * scale->threshold;
+    /* Where a design covers by less than others ask for, its colours have to tell it all the same. */
+    if (s->total > 0 && quantity == SP_QUANTITY_FLUX && scale->threshold_count > 0)
+        least = fmin(s->nothing_is_asked ? least : INFINITY, unit * scale->thresholds[0]);
     double high = rounded(most, true), low = fmax(rounded(least, false), high / 1000);
     if (high < 5 * low)
         high = rounded(5 * low, true);
@@ -143,19 +174,30 @@ sp_colour_scale sp_colour_scale_of(const sp_design *designs, size_t count, sp_pi
         if (!designs[i].evaluator)
             continue;
         add_design(&s, &designs[i], style.quantity);
-        scale.threshold =
-            fmax(scale.threshold, threshold_of(&sp_evaluator_setup(designs[i].evaluator)->criterion, style.quantity));
+        s.nothing_is_asked |= !(sp_colour_threshold(&designs[i], style.quantity) > 0);
     }
-    if (style.shades == SP_SHADES_AUTO || (style.shades == SP_SHADES_STEPPED && !(scale.threshold > 0)))
+    scale.threshold_count = sp_colour_thresholds(designs, count, style.quantity, scale.thresholds);
+    if (style.shades == SP_SHADES_AUTO || (style.shades == SP_SHADES_STEPPED && scale.threshold_count == 0))
         scale.style.shades = even ? SP_SHADES_LINEAR : SP_SHADES_LOG;
     set_ends(&scale, &s);
+    scale.below = s.total > 0 && s.least < scale.low * (1 - 1e-9);
+    scale.above = s.total > 0 && s.most > scale.high * (1 + 1e-9);
     return scale;
+}
+
+double sp_colour_scale_step(const sp_colour_scale *scale, int steps)
+{
+    return 0.15 + 0.7 * steps / scale->threshold_count;
 }
 
 double sp_colour_scale_place(const sp_colour_scale *scale, double value)
 {
-    if (scale->style.shades == SP_SHADES_STEPPED)
-        return value < scale->threshold ? 0.15 : 0.85;
+    if (scale->style.shades == SP_SHADES_STEPPED) {
+        int steps = 0;
+        while (steps < scale->threshold_count && value >= scale->thresholds[steps])
+            steps++;
+        return sp_colour_scale_step(scale, steps);
+    }
     if (!(value > scale->low))
         return 0;
     double place = scale->style.shades == SP_SHADES_LOG ? log(value / scale->low) / log(scale->high / scale->low)

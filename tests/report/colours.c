@@ -84,7 +84,8 @@ static void steps_part_where_the_criterion_does(void **state)
                  {SP_QUANTITY_COVERED, 0.5}};
     for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
         sp_colour_scale scale = scale_of(f, asked[i].quantity, SP_SHADES_STEPPED);
-        assert_true(scale.threshold == asked[i].threshold && scale.style.shades == SP_SHADES_STEPPED);
+        assert_true(scale.threshold_count == 1 && scale.thresholds[0] == asked[i].threshold &&
+                    scale.style.shades == SP_SHADES_STEPPED);
         double at = sp_colour_scale_place(&scale, asked[i].threshold);
         assert_true(at > sp_colour_scale_place(&scale, asked[i].threshold * (1 - 1e-12)));
         assert_true(at == sp_colour_scale_place(&scale, 10 * asked[i].threshold));
@@ -201,10 +202,87 @@ static void what_the_bar_says_is_within_it(void **state)
     }
 }
 
+/* The tank's layout once more, held against a criterion of so much flux. */
+static sp_design asking_for(const fixture *f, double flux, const char *name)
+{
+    sp_error error = {0};
+    sp_setup setup = *sp_evaluator_setup(f->evaluator);
+    setup.criterion.flux = flux;
+    setup.criterion.impact_speed = 0;
+    sp_design design = {.name = name, .evaluator = sp_evaluator_create(&setup, &error), .layout = f->layout};
+    assert_non_null(design.evaluator);
+    design.coverage = sp_evaluate(design.evaluator, f->layout, &error);
+    assert_non_null(design.coverage);
+    return design;
+}
+
+static void forget(sp_design design)
+{
+    sp_coverage_destroy((sp_coverage *)design.coverage);
+    sp_evaluator_destroy((sp_evaluator *)design.evaluator);
+}
+
+/* The colours of who asks for little are not all at the dark end, and everybody's criterion has its mark. */
+static void one_scale_serves_several_criteria(void **state)
+{
+    const fixture *f = *state;
+    sp_design designs[] = {asking_for(f, 5 / 6e4, "much.yaml"), asking_for(f, 0.5 / 6e4, "little.yaml"),
+                           asking_for(f, 5 / 6e4, "same.yaml")};
+    sp_figures figures[3] = {0};
+    sp_result result = {.command = "compare", .scene = "t.yaml", .design_count = 3, .designs = designs};
+    sp_page page = {.result = &result, .figures = figures, .main = SP_UNKNOWN};
+    for (size_t i = 0; i < 3; i++)
+        figures[i].name = (char *)designs[i].name;
+    page.manual = page.greedy = SP_UNKNOWN;
+    page.scale = sp_colour_scale_of(designs, 3, (sp_picture_style){0});
+    assert_true(fabs(6e4 * page.scale.low - 0.5) < 1e-9);
+    assert_int_equal(page.scale.threshold_count, 2);
+    sp_text bar = {0};
+    sp_page_colour_bar(&page, &bar);
+    assert_non_null(strstr(bar.text, "asked for by little.yaml: at least 0.5 L/min"));
+    assert_non_null(strstr(bar.text, "asked for by much.yaml, same.yaml: at least 5 L/min"));
+    free(bar.text);
+    bar = (sp_text){0};
+    page.scale = sp_colour_scale_of(designs, 3, (sp_picture_style){.shades = SP_SHADES_STEPPED});
+    double below = sp_colour_scale_place(&page.scale, 0.4 / 6e4), between = sp_colour_scale_place(&page.scale, 1 / 6e4),
+           above = sp_colour_scale_place(&page.scale, 6 / 6e4);
+    assert_true(below < between && between < above);
+    sp_page_colour_bar(&page, &bar);
+    assert_non_null(strstr(bar.text, ">below 0.5</text>"));
+    assert_non_null(strstr(bar.text, ">0.5 to 5</text>"));
+    assert_non_null(strstr(bar.text, ">5 or more</text>"));
+    free(bar.text);
+    for (size_t i = 0; i < 3; i++)
+        forget(designs[i]);
+}
+
+/* Where values lie beyond an end, its figure and a point say so. */
+static void ends_that_are_exceeded_are_signed(void **state)
+{
+    const fixture *f = *state;
+    sp_figures figures = {0};
+    sp_result result = {.command = "simulate", .scene = "t.yaml", .design_count = 1, .designs = &f->design};
+    sp_page page = {.result = &result, .figures = &figures, .scale = scale_of(f, SP_QUANTITY_FLUX, SP_SHADES_AUTO)};
+    double most = 0;
+    for (size_t i = 0; i < f->coverage->deposits.count; i++)
+        most = fmax(most, f->coverage->deposits.covered[i] ? f->coverage->deposits.flux[i] : 0);
+    assert_int_equal(page.scale.above, most > page.scale.high * (1 + 1e-9));
+    for (int above = 0; above < 2; above++) {
+        sp_text bar = {0};
+        page.scale.above = above;
+        sp_page_colour_bar(&page, &bar);
+        assert_int_equal(strstr(bar.text, "\xe2\x89\xa5 ") != NULL, above);
+        assert_int_equal(strstr(bar.text, "class=\"beyond\"") != NULL, above || page.scale.below);
+        free(bar.text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_bar_says_is_within_it),
+        cmocka_unit_test(one_scale_serves_several_criteria),
+        cmocka_unit_test(ends_that_are_exceeded_are_signed),
         cmocka_unit_test(scales_hold_what_arrives),
         cmocka_unit_test(steps_part_where_the_criterion_does),
         cmocka_unit_test(what_is_not_covered_is_striped),

@@ -1,8 +1,8 @@
 /* What the colours mean. */
 function makeBar(view) {
     "use strict";
-    const {about, state, bar, coverage, difference, chartHues, SCALES, palette, coloured, base, shade, ticksOf,
-           admits} = view;
+    const {about, state, bar, coverage, difference, chartHues, SCALES, palette, coloured, base, stepAt, shade,
+           ticksOf, beyond, admits} = view;
     const {element} = widgets;
 
     function swatch(style, text) {
@@ -13,15 +13,25 @@ function makeBar(view) {
     const HATCH = "repeating-linear-gradient(45deg,#c42636 0 2px,#faf8f5 2px 7px)";
     const rgb = (colour) => `rgb(${colour})`;
 
+    /* One field for each step, of equal width. */
+    function stepsOf(quantity, colourAt) {
+        const fields = quantity.steps.length + 1;
+        return Array.from({length: fields}, (_, i) =>
+            `${colourAt(stepAt(quantity, i))} ${(100 * i) / fields}% ${(100 * (i + 1)) / fields}%`);
+    }
+
+    /* What lies beyond an end has its colour: the tick there says so. */
     function ramp(quantity) {
-        const colours = palette(), stops = [...Array(33).keys()].map((i) => 3 * Math.round((i * 255) / 32))
-            .map((at) => rgb(colours.subarray(at, at + 3)));
+        const colourAt = (t) => rgb(palette().subarray(3 * Math.round(255 * t), 3 * Math.round(255 * t) + 3));
         const strip = element("span", {class: "ramp"}), stepped = state.scales[quantity.key] === "stepped";
-        strip.style.background = stepped
-            ? `linear-gradient(90deg,${stops[5]} 50%,${stops[27]} 50%)` : `linear-gradient(90deg,${stops})`;
-        strip.append(...ticksOf(quantity).map((value) => {
-            const tick = element("i", {}, String(Number(value.toPrecision(3))));
-            tick.style.left = `${100 * (stepped ? 0.5 : shade(quantity, value))}%`;
+        const stops = stepped ? stepsOf(quantity, colourAt)
+            : Array.from({length: 33}, (_, i) => colourAt(i / 32));
+        strip.style.background = `linear-gradient(90deg,${stops})`;
+        const ticks = ticksOf(quantity), [below, above] = beyond(quantity);
+        strip.append(...ticks.map((value, i) => {
+            const sign = below && i === 0 ? "≤ " : above && i === ticks.length - 1 ? "≥ " : "";
+            const tick = element("i", {}, `${sign}${Number(value.toPrecision(3))}`);
+            tick.style.left = `${100 * (stepped ? (i + 1) / (ticks.length + 1) : shade(quantity, value))}%`;
             return tick;
         }));
         const unit = quantity.unit ? `, ${quantity.unit}` : "";
@@ -57,7 +67,8 @@ function makeBar(view) {
         if (!quantity.shown)
             return `${quantity.name}.`;
         return scale === "stepped"
-            ? `${quantity.name} in two colours of ${state.map}, stepped at ${short(quantity.step)}.`
+            ? `${quantity.name} in ${quantity.steps.length + 1} colours of ${state.map}, stepped at ` +
+                `${quantity.steps.map(short).join(" and ")}.`
             : `${quantity.name} from ${short(low)} to ${short(high)}, ${scale === "log" ? "logarithmic" : "linear"}, ` +
                 `in ${state.map}.`;
     }

@@ -1,7 +1,7 @@
 /* What colour each patch has. */
 function makeColours(view) {
     "use strict";
-    const {about, state, flux, coverage, difference, reached, palette, valueOf, shade} = view;
+    const {about, state, flux, coverage, difference, reached, HALF, palette, valueOf, shade} = view;
 
     function setColour(colours, i, red, green, blue, kind) {
         colours.set([red, green, blue, kind], 4 * i);
@@ -14,7 +14,6 @@ function makeColours(view) {
     }
 
     const coloured = () => (state.nozzle ? flux : state.quantity);
-    const HALF = 128; /* of a byte of share: covered */
     const base = () => state.shown.find((design) => design.manual) || state.shown[0];
 
     function colourDifference(colours, design, from) {

@@ -62,6 +62,20 @@ static void scale_counts(sp_shown_quantity *q, double high)
     q->shown[1] = rounded_up(q->high);
 }
 
+static void add_steps(const sp_page *page, sp_shown_quantities *shown)
+{
+    static const sp_quantity quantities[] = {[SP_SHOWN_FLUX] = SP_QUANTITY_FLUX,
+                                             [SP_SHOWN_SPEED] = SP_QUANTITY_SPEED,
+                                             [SP_SHOWN_INCIDENCE] = SP_QUANTITY_INCIDENCE};
+    for (int k = SP_SHOWN_FLUX; k <= SP_SHOWN_INCIDENCE; ++k) {
+        sp_shown_quantity *q = &shown->of[k];
+        q->step_count =
+            sp_colour_thresholds(page->result->designs, page->result->design_count, quantities[k], q->steps);
+        for (int i = 0; i < q->step_count; ++i)
+            q->steps[i] *= q->to_unit;
+    }
+}
+
 sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
 {
     sp_shown_quantities shown = {.count = any_jets(page) ? SP_SHOWN_QUANTITIES : SP_SHOWN_JETS};
@@ -73,10 +87,6 @@ sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
         {.key = "impact", .name = "Impact pressure", .unit = "Pa", .to_unit = 1},
         {.key = "jets", .name = "Jets that arrive", .unit = "", .to_unit = 1},
     };
-    const sp_criterion *criterion = NULL;
-    for (size_t i = 0; i < page->result->design_count && !criterion; ++i)
-        if (page->result->designs[i].evaluator)
-            criterion = &sp_evaluator_setup(page->result->designs[i].evaluator)->criterion;
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
         quantities[k] = all[k];
     scale_by_ratios(&quantities[SP_SHOWN_FLUX], 6e4 * most(page, SP_SHOWN_FLUX));
@@ -86,12 +96,7 @@ sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
     scale_by_ratios(&quantities[SP_SHOWN_IMPACT], most(page, SP_SHOWN_IMPACT));
     scale_counts(&quantities[SP_SHOWN_JETS], most(page, SP_SHOWN_JETS));
     quantities[SP_SHOWN_INCIDENCE].high = quantities[SP_SHOWN_INCIDENCE].shown[1] = 90;
-    if (criterion) {
-        double incidence = criterion->incidence;
-        quantities[SP_SHOWN_FLUX].criterion = 6e4 * criterion->flux;
-        quantities[SP_SHOWN_SPEED].criterion = criterion->impact_speed;
-        quantities[SP_SHOWN_INCIDENCE].criterion = incidence < M_PI / 2 ? 180 / M_PI * incidence : 0;
-    }
+    add_steps(page, &shown);
     return shown;
 }
 

@@ -13,9 +13,10 @@ typedef struct {
     const char *key, *name, *unit;
     double to_unit; /* times a value in SI */
     double low, high;
-    bool log, whole; /* whole: a count */
-    double shown[2];  /* ends of the colour bar */
-    double criterion; /* 0: none */
+    bool log, whole;                    /* whole: a count */
+    double shown[2];                    /* ends of the colour bar */
+    double steps[SP_COLOUR_THRESHOLDS]; /* what the designs' criteria ask for, each once, the least first */
+    int step_count;
 } sp_shown_quantity;
 
 typedef struct {

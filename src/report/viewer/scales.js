@@ -3,6 +3,7 @@ function makeScales(view) {
     "use strict";
     const {about, state} = view;
 
+    const HALF = 128; /* of a byte of share: covered */
     const SCALES = ["log", "linear", "stepped"];
 
     /* All 256 colours, three bytes each. Cividis (Nuñez, Anderton and Renslow, PLoS ONE 13(7), 2018, under CC0) is for
@@ -35,12 +36,15 @@ function makeScales(view) {
                             : quantity.low + t * (quantity.high - quantity.low);
     }
 
+    /* Where on the colour map the colour is of what is up so many steps of a stepped scale. */
+    const stepAt = (quantity, steps) => 0.15 + (0.7 * steps) / quantity.steps.length;
+
     /* Where on the colour bar, 0 to 1. */
     function shade(quantity, value) {
         const [low, high] = quantity.shown;
         const scale = state.scales[quantity.key];
         if (scale === "stepped")
-            return value < quantity.step ? 0.15 : 0.85;
+            return stepAt(quantity, quantity.steps.filter((step) => value >= step).length);
         const t = scale === "log" && low > 0 ? Math.log(value / low) / Math.log(high / low)
                                              : (value - low) / (high - low);
         return Math.min(Math.max(t, 0), 1);
@@ -51,7 +55,7 @@ function makeScales(view) {
         if (quantity.counts)
             return Array.from({length: to}, (_, i) => i + 1).filter((i) => i % Math.ceil(to / 8) === 0 || i === 1);
         if (state.scales[quantity.key] === "stepped")
-            return [quantity.step];
+            return quantity.steps;
         if (state.scales[quantity.key] === "log" && from > 0) {
             /* of many decades whole ones alone */
             const steps = to / from > 200 ? [1] : [1, 2, 5];
@@ -63,9 +67,22 @@ function makeScales(view) {
         return first * step - from > step / 2 ? [from, ...whole] : whole;
     }
 
+    /* Whether some of what is shown lies below, and above, the bar's ends, whose colours it has. */
+    function beyond(quantity) {
+        const {key, shown: [low, high]} = quantity;
+        let least = Infinity, most = 0;
+        if (key in state.scales && state.scales[key] !== "stepped")
+            for (const {values, share} of state.shown)
+                values[key].forEach((byte, i) => {
+                    if (byte > 0 && share[i] >= HALF)
+                        [least, most] = [Math.min(least, byte), Math.max(most, byte)];
+                });
+        return [valueOf(quantity, Math.min(least, 255)) < low * (1 - 1e-6), valueOf(quantity, most) > high * (1 + 1e-6)];
+    }
+
     /* Scales that a quantity may have: by ratios where it does not begin at 0, stepped where something is asked. */
     const admits = (quantity, scale) => quantity.key in state.scales &&
-        (scale === "linear" || (scale === "log" ? quantity.shown[0] > 0 || quantity.log : quantity.step > 0));
+        (scale === "linear" || (scale === "log" ? quantity.shown[0] > 0 || quantity.log : quantity.steps.length > 0));
 
     /* The same byte in words. */
     function figure(quantity, byte) {
@@ -75,5 +92,5 @@ function makeScales(view) {
         const beyond = quantity.whole ? "" : byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least " : "";
         return `${beyond}${Number(value.toPrecision(3))} ${quantity.unit}`.trimEnd();
     }
-    return {SCALES, MAPS: Object.keys(maps), palette, valueOf, shade, ticksOf, admits, figure};
+    return {SCALES, HALF, MAPS: Object.keys(maps), palette, valueOf, stepAt, shade, ticksOf, beyond, admits, figure};
 }
