@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #define STOPS 16
-#define LEFT 10.0
-#define LENGTH 400.0  /* of the bar, in the drawing's units */
+#define LEFT 32.0 /* of the bar, in the drawing's units: half a long tick's figure has room before it */
+#define LENGTH 378.0
 #define MOST_NAMES 60 /* characters of the names of designs in a line */
 #define LINE 20       /* of a criterion's text */
 #define MOST_TICKS 8

@@ -277,12 +277,34 @@ static void ends_that_are_exceeded_are_signed(void **state)
     }
 }
 
+/* Half of a figure's letters stand to the left of its tick. */
+static void the_first_figure_is_whole(void **state)
+{
+    const fixture *f = *state;
+    sp_figures figures = {0};
+    sp_result result = {.command = "simulate", .scene = "t.yaml", .design_count = 1, .designs = &f->design};
+    sp_page page = {.result = &result, .figures = &figures, .scale = scale_of(f, SP_QUANTITY_FLUX, SP_SHADES_AUTO)};
+    page.scale.low = 0.001 / 6e4;
+    page.scale.below = true;
+    sp_text bar = {0};
+    sp_page_colour_bar(&page, &bar);
+    const char *figure = strstr(bar.text, ">\xe2\x89\xa4 0.001<"), *tick = figure;
+    assert_non_null(figure);
+    while (strncmp(tick, "<text ", 6) != 0)
+        tick--;
+    double x;
+    assert_int_equal(sscanf(tick, "<text x=\"%lf\"", &x), 1);
+    assert_true(x - 7.2 * 7 / 2 >= 0);
+    free(bar.text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_bar_says_is_within_it),
         cmocka_unit_test(one_scale_serves_several_criteria),
         cmocka_unit_test(ends_that_are_exceeded_are_signed),
+        cmocka_unit_test(the_first_figure_is_whole),
         cmocka_unit_test(scales_hold_what_arrives),
         cmocka_unit_test(steps_part_where_the_criterion_does),
         cmocka_unit_test(what_is_not_covered_is_striped),
