@@ -114,6 +114,25 @@ static void undo_brings_back_what_was(void **state)
                         json_string_value(json_object_get(step("pressed"), "scene")));
 }
 
+static const char *text_of(const char *name, const char *key)
+{
+    return json_string_value(json_object_get(step(name), key));
+}
+
+/* What the table compares with, and what the list says, is part of what comes back. */
+static void undo_brings_back_the_start(void **state)
+{
+    (void)state;
+    skip_unless_evaluating(carried);
+    assert_string_equal(text_of("placed", "from"), "Proposed");
+    assert_string_equal(text_of("placed", "head"), "LayoutProposedYours");
+    assert_string_equal(text_of("anew", "from"), "Manual");
+    assert_string_equal(text_of("anew", "head"), "LayoutManualYours");
+    static const char *const keys[] = {"from", "head", "figures", "scene"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        assert_string_equal(text_of("returned", keys[i]), text_of("placed", keys[i]));
+}
+
 static void it_says_what_comes_of_it(void **state)
 {
     (void)state;
@@ -212,6 +231,7 @@ int main(void)
         cmocka_unit_test(the_saved_scene_can_be_placed_on),
         cmocka_unit_test(only_what_moved_is_traced),
         cmocka_unit_test(undo_brings_back_what_was),
+        cmocka_unit_test(undo_brings_back_the_start),
         cmocka_unit_test(it_says_what_comes_of_it),
         cmocka_unit_test(boxes_come_and_go),
         cmocka_unit_test(the_changed_layout_has_jets),

@@ -26,7 +26,9 @@
         await until(has("settled"));
         found.steps[name] = {coverage: Number(live().dataset.coverage), traced: Number(live().dataset.traced),
             said: live().querySelector(".answer").textContent,
-            figures: (live().querySelector("table") || {}).textContent, scene: live().querySelector("textarea").value};
+            figures: (live().querySelector("table") || {}).textContent,
+            head: (live().querySelector("thead") || {}).textContent, from: labelled("Start from").selectedOptions[0].text,
+            scene: live().querySelector("textarea").value};
     }
     function set(name, share) {
         const input = labelled(name);
@@ -73,6 +75,8 @@
         await step("typed", () => choose("Type"));
         await step("free", () => choose("Mount", "anywhere"));
         await step("placed", () => set("x, m", 0.31));
+        await step("anew", () => choose("Start from", "Manual"));
+        await step("returned", () => pressed("Undo").click());
         found.reachable = [...live().querySelectorAll("button, input, select, textarea, summary")].every((one) =>
             one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
         const shown = [...document.querySelectorAll("#viewer .switches:first-child input:checked")];

@@ -16,7 +16,7 @@ function makeChanges(live) {
     function remember(name) {
         const now = Date.now();
         if (name !== gesture || now - gestureAt > 1500)
-            history.push(JSON.stringify([live.nozzles, live.chosen]));
+            history.push(JSON.stringify([live.nozzles, live.chosen, live.start, live.started]));
         [gesture, gestureAt] = [name, now];
         live.undoButton.disabled = false;
     }
@@ -47,15 +47,17 @@ function makeChanges(live) {
         run(false);
     }
 
-    function undo() {
+    /* After what is on its way. The start comes back too: what the table compares with, and what the list says. */
+    const undo = () => after(async () => {
         const before = history.pop();
         if (!before)
             return;
-        [live.nozzles, live.chosen] = JSON.parse(before);
+        [live.nozzles, live.chosen, live.start, live.started] = JSON.parse(before);
+        live.starts.selectedIndex = live.started;
         gesture = null;
         live.undoButton.disabled = !history.length;
         refresh(true);
-    }
+    });
 
     function addNozzle(index) {
         after(async () => {

@@ -12,7 +12,8 @@
                     values: Object.fromEntries(view.about.quantities.map(({key}) => [key, empty])), share: empty,
                     film: empty, shadowOf: empty, shadows: [], nozzles: [], jets: []};
     const live = {view, editing, model, empty, design, origin: editing.settings.slice(13, 16), LITRES: 6e4,
-        nozzles: [], chosen: 0, start: null, last: null, syncs: [],
+        nozzles: [], chosen: 0, last: null, syncs: [],
+        start: null, started: 0, /* what the table compares with, and where that stands in the list */
         section: element("section", {id: "live"}), figures: scrolling.watch(element("div", {class: "wide"})),
         answer: element("div", {class: "answer", role: "status", "aria-live": "polite"}),
         holder: element("div", {class: "controls"}), sliders: element("div", {class: "sliders"}),
@@ -30,9 +31,9 @@
         for (const nozzle of live.nozzles)
             await findMount(nozzle);
         live.chosen = 0;
-        live.start = {name: view.designs.find((other) => other.index === from.index).name};
         const found = await live.ask("evaluate", {nozzles: live.nozzles.map(numbersOf), stride: 1});
-        Object.assign(live.start, found.figures, {price: live.priceOf(found.figures.flow)});
+        live.start = {name: view.designs.find((other) => other.index === from.index).name, ...found.figures,
+                      price: live.priceOf(found.figures.flow)};
         return found;
     }
 
@@ -62,10 +63,12 @@
     starts.addEventListener("change", () => {
         live.after(async () => {
             live.remember("start");
-            await startFrom(choices[starts.selectedIndex]);
+            live.started = starts.selectedIndex;
+            await startFrom(choices[live.started]);
             live.refresh(true);
         });
     });
+    Object.assign(live, {starts, started: starts.selectedIndex});
     view.addBoxes(async () => view.uploadBoxes(model, await live.ask("boxes")));
     live.drawNozzles();
     view.addDesign(design);
