@@ -133,6 +133,23 @@ static void undo_brings_back_the_start(void **state)
         assert_string_equal(text_of("returned", keys[i]), text_of("placed", keys[i]));
 }
 
+static json_int_t nozzles_after(const char *name)
+{
+    return json_integer_value(json_object_get(step(name), "nozzles"));
+}
+
+/* However soon one follows another; of a slider that is drawn alone all steps come back at once. */
+static void each_action_is_undone_by_itself(void **state)
+{
+    (void)state;
+    skip_unless_evaluating(carried);
+    assert_int_equal(nozzles_after("twice"), nozzles_after("returned") + 2);
+    assert_int_equal(nozzles_after("once"), nozzles_after("returned") + 1);
+    assert_true(json_is_true(json_object_get(found, "isOff")));
+    assert_string_not_equal(text_of("drawn", "scene"), text_of("on", "scene"));
+    assert_string_equal(text_of("undrawn", "scene"), text_of("on", "scene"));
+}
+
 static void it_says_what_comes_of_it(void **state)
 {
     (void)state;
@@ -232,6 +249,7 @@ int main(void)
         cmocka_unit_test(only_what_moved_is_traced),
         cmocka_unit_test(undo_brings_back_what_was),
         cmocka_unit_test(undo_brings_back_the_start),
+        cmocka_unit_test(each_action_is_undone_by_itself),
         cmocka_unit_test(it_says_what_comes_of_it),
         cmocka_unit_test(boxes_come_and_go),
         cmocka_unit_test(the_changed_layout_has_jets),

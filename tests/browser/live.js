@@ -21,14 +21,14 @@
     async function step(name, act) {
         if (act) {
             delete live().dataset.settled;
-            act();
+            await act();
         }
         await until(has("settled"));
         found.steps[name] = {coverage: Number(live().dataset.coverage), traced: Number(live().dataset.traced),
             said: live().querySelector(".answer").textContent,
             figures: (live().querySelector("table") || {}).textContent,
             head: (live().querySelector("thead") || {}).textContent, from: labelled("Start from").selectedOptions[0].text,
-            scene: live().querySelector("textarea").value};
+            nozzles: labelled("Nozzle").length, scene: live().querySelector("textarea").value};
     }
     function set(name, share) {
         const input = labelled(name);
@@ -77,6 +77,18 @@
         await step("placed", () => set("x, m", 0.31));
         await step("anew", () => choose("Start from", "Manual"));
         await step("returned", () => pressed("Undo").click());
+        await step("twice", () => [1, 2].forEach(() => pressed("Add a nozzle at").click()));
+        await step("once", () => pressed("Undo").click());
+        await step("switched", async () => {
+            pressed("Switch off").click();
+            await until(() => pressed("Switch on"));
+            pressed("Switch on").click();
+        });
+        await step("unswitched", () => pressed("Undo").click());
+        found.isOff = Boolean(pressed("Switch on"));
+        await step("on", () => pressed("Switch on").click());
+        await step("drawn", () => [0.4, 0.5, 0.6].forEach((share) => set("Pressure", share)));
+        await step("undrawn", () => pressed("Undo").click());
         found.reachable = [...live().querySelectorAll("button, input, select, textarea, summary")].every((one) =>
             one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
         const shown = [...document.querySelectorAll("#viewer .switches:first-child input:checked")];

@@ -13,9 +13,11 @@ function makeChanges(live) {
 
     const history = [];
     let gesture = null, gestureAt = 0;
+    /* Steps of one name that follow one another soon are taken back as one: those of a slider or a handle of one
+     * nozzle that is drawn. Whatever else is done has no name, and is taken back by itself. */
     function remember(name) {
-        const now = Date.now();
-        if (name !== gesture || now - gestureAt > 1500)
+        const now = Date.now(), goesOn = name && name === gesture && now - gestureAt <= 1500;
+        if (!goesOn)
             history.push(JSON.stringify([live.nozzles, live.chosen, live.start, live.started]));
         [gesture, gestureAt] = [name, now];
         live.undoButton.disabled = false;
@@ -24,11 +26,11 @@ function makeChanges(live) {
     let moving = Promise.resolve();
     /* One after the other. */
     const after = (act) => (moving = moving.then(act));
-    /* `name`: changes of one name, one soon after the other, are undone together. */
+    /* `name`: of a slider or a handle of the nozzle in hand; none where it is neither. */
     function change(name, act, rebuild) {
         return after(async () => {
-            remember(name);
             const nozzle = live.nozzles[live.chosen];
+            remember(name && `${name} of ${live.chosen}`);
             act(nozzle);
             await settle(nozzle);
             refresh(rebuild);
@@ -61,7 +63,7 @@ function makeChanges(live) {
 
     function addNozzle(index) {
         after(async () => {
-            remember("add");
+            remember(null);
             const like = live.nozzles[live.chosen], taken = new Set(live.nozzles.map((nozzle) => nozzle.name));
             let number = live.nozzles.length + 1;
             while (taken.has(`A${number}`))

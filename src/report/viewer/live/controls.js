@@ -26,14 +26,14 @@ function makeEditor(live) {
         });
         const allowed = types.map((_, i) => i).filter((i) => i < named && (i === nozzle.type || !mount.types.length ||
             mount.types.includes(i)));
-        list("Type", allowed.map((i) => types[i].name), allowed.indexOf(nozzle.type), (i) => change("type", (own) => {
+        list("Type", allowed.map((i) => types[i].name), allowed.indexOf(nozzle.type), (i) => change(null, (own) => {
             own.type = allowed[i];
             fitType(own);
         }, true));
         list("Mount", ["anywhere", ...mounts.map(mountName)], nozzle.mount + 1, (i) =>
-            change("mount", (own) => mountAt(own, i - 1), true));
+            change(null, (own) => mountAt(own, i - 1), true));
         const toggle = button(nozzle.on ? "Switch off" : "Switch on", () =>
-            change("switch", (own) => (own.on = !own.on), true));
+            change(null, (own) => (own.on = !own.on), true));
         const adds = element("select", {"aria-label": "Mount of a nozzle more"},
             ...["anywhere", ...mounts.map(mountName)].map((text, i) => option(text, i === 1)));
         const more = button("Add a nozzle at", () => addNozzle(adds.selectedIndex - 1));

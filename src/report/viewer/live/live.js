@@ -62,7 +62,7 @@
         option(view.designs.find(({index}) => index === other.index).name, other.main)));
     starts.addEventListener("change", () => {
         live.after(async () => {
-            live.remember("start");
+            live.remember(null);
             live.started = starts.selectedIndex;
             await startFrom(choices[live.started]);
             live.refresh(true);

@@ -14,7 +14,7 @@ function makeSliders(live) {
         const act = (from) => () => {
             if (from.value === "" || !Number.isFinite(Number(from.value)))
                 return sync(true);
-            change(name, (nozzle) => set(nozzle, limited(Number(from.value), low, high)));
+            change(from === range && name, (nozzle) => set(nozzle, limited(Number(from.value), low, high)));
         };
         const sync = (all) => [range, exact].forEach((input) => {
             if (all || input !== document.activeElement || input === range)
