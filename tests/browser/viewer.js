@@ -1,4 +1,5 @@
 /* Put behind the report's own script by a test: uses the viewer as a reader would, and writes what it saw into the page. */
+const shown = viewer;
 (async () => {
     const found = {errors: [], picks: []};
     const told = document.createElement("pre");
@@ -134,6 +135,9 @@
         row("shadows").click();
         found.shadow = {text: answer.textContent, seen: look()};
     }
+    const view = await shown, proposed = view.designs.find(({name}) => name === "Proposed");
+    found.fluxes = Array.from(proposed.values.flux, (byte) => view.figure(view.flux, byte, proposed.asked[0]));
+    found.places = [-0.0004, -0.0006].map(view.placeText);
     found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
         .filter((name) => !name.startsWith("blob:")); /* the worker, which the page made itself */
     told.textContent = JSON.stringify(found);

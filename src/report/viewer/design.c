@@ -75,8 +75,9 @@ static void take_bytes(teller *t, int quantity, uint8_t *bytes)
 {
     const sp_deposits *deposits = &t->design->coverage->deposits;
     const double *values = sp_shown_values(deposits, quantity);
+    double asked = sp_shown_asked(t->design, quantity);
     for (size_t i = 0; i < deposits->count; ++i)
-        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(&t->quantities->of[quantity], values[i]) : 0;
+        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(&t->quantities->of[quantity], asked, values[i]) : 0;
 }
 
 #define APART 4 /* steps between the two largest that are told from each other */
@@ -187,9 +188,10 @@ static json_t *tell_shadows(teller *t, sp_error *error)
 static bool tell_brought(teller *t, size_t index)
 {
     const sp_contributions *does = t->design->contributions;
+    double asked = sp_shown_asked(t->design, SP_SHOWN_FLUX);
     for (size_t i = 0; i < does->patches; ++i) {
         double brought = (double)does->flux[index * does->patches + i];
-        uint8_t byte = brought > 0 ? sp_shown_byte(&t->quantities->of[SP_SHOWN_FLUX], brought) : 0;
+        uint8_t byte = brought > 0 ? sp_shown_byte(&t->quantities->of[SP_SHOWN_FLUX], asked, brought) : 0;
         t->bytes[i] = byte;
         t->second[i] = byte > t->most[i] ? t->most[i] : byte > t->second[i] ? byte : t->second[i];
         t->most[i] = byte > t->most[i] ? byte : t->most[i];
@@ -237,10 +239,14 @@ static json_t *head_json(const sp_page *page, size_t design)
     sp_text_add(&quote, "%.1f %% with ", 100 * page->figures[design].coverage);
     sp_markup_water(&quote, 6e4 * page->figures[design].flow);
     sp_text_add(&quote, " L/min");
-    json_t *object = NULL;
+    json_t *object = NULL, *asked = json_array();
+    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
+        json_array_append_new(asked, json_real(sp_shown_asked(&page->result->designs[design], k)));
     if (!name.failed && !quote.failed)
-        object = json_pack("{s:I, s:s, s:s, s:b, s:b}", "index", (json_int_t)design, "name", name.text, "quote",
-                           quote.text, "manual", (int)(design == page->manual), "first", (int)(design != page->greedy));
+        object = json_pack("{s:O, s:I, s:s, s:s, s:b, s:b}", "asked", asked, "index", (json_int_t)design, "name",
+                           name.text, "quote", quote.text, "manual", (int)(design == page->manual), "first",
+                           (int)(design != page->greedy));
+    json_decref(asked);
     free(name.text);
     free(quote.text);
     return object;

@@ -43,10 +43,11 @@ static json_t *quantities_json(const sp_shown_quantities *shown)
         json_t *steps = json_array();
         for (int i = 0; i < q->step_count; ++i)
             json_array_append_new(steps, json_real(q->steps[i]));
-        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:b, s:[ff], s:o}", "key", q->key,
-                                              "name", q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low,
-                                              "high", q->high, "log", (int)q->log, "whole", (int)q->whole, "shown",
-                                              q->shown[0], q->shown[1], "steps", steps));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:b, s:b, s:[ff], s:o}", "key", q->key,
+                                        "name", q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high",
+                                        q->high, "log", (int)q->log, "whole", (int)q->whole, "atMost", (int)q->at_most,
+                                        "shown", q->shown[0], q->shown[1], "steps", steps));
     }
     return list;
 }

@@ -28,6 +28,9 @@ function makePick(view) {
         return found;
     }
 
+    /* To a millimetre, without a sign where that is none. */
+    const placeText = (value) => value.toFixed(3).replace(/^-(?=[0.]+$)/, "");
+
     /* The patch there, -1 for none. */
     function patchAt(model, {drawn, u, v, corners}) {
         if (drawn.page < 0)
@@ -38,11 +41,11 @@ function makePick(view) {
     }
 
     function figuresAt(design, patch) {
-        const rows = about.quantities.map((quantity) =>
-            [quantity.name, figure(quantity, design.values[quantity.key][patch])]);
+        const rows = about.quantities.map((quantity, k) =>
+            [quantity.name, figure(quantity, design.values[quantity.key][patch], design.asked[k])]);
         const known = design.nozzles.filter((nozzle) => nozzle.known);
         const bringing = known.filter((nozzle) => nozzle.flux[patch] > 0)
-            .map((nozzle) => `${nozzle.name} ${figure(flux, nozzle.flux[patch])}`);
+            .map((nozzle) => `${nozzle.name} ${figure(flux, nozzle.flux[patch], design.asked[0])}`);
         rows.push(["Covered", `${Math.round(design.share[patch] / 2.55)} %${design.film[patch] ? ", by film" : ""}`]);
         if (known.length === design.nozzles.length)
             rows.push(["From", bringing.join(", ") || "no nozzle"]);
@@ -83,9 +86,9 @@ function makePick(view) {
             return;
         }
         const patch = patchAt(model, hit), part = model.parts[hit.drawn.part];
-        const where = hit.at.map((value, k) => (value + model.origin[k]).toFixed(3)).join(", ");
+        const where = hit.at.map((value, k) => placeText(value + model.origin[k])).join(", ");
         tell(`${part.name} at ${where} m${patch < 0 ? ": no cleaning asked there" : ""}`, model, patch);
         answer.dataset.patch = patch;
     }
-    return {tell, nearest, rayAt, ask};
+    return {tell, nearest, rayAt, ask, placeText};
 }

@@ -2,6 +2,14 @@
 
 #define DECADES 5.0 /* of a logarithmic scale's bytes: steps of 4.6 % */
 
+static const sp_shown_quantity words[SP_SHOWN_QUANTITIES] = {
+    {.key = "flux", .name = "Liquid flux", .unit = "L/min per m\xc2\xb2", .to_unit = 6e4},
+    {.key = "speed", .name = "Impact speed", .unit = "m/s", .to_unit = 1},
+    {.key = "incidence", .name = "Incidence", .unit = "deg", .to_unit = 180 / M_PI, .at_most = true},
+    {.key = "impact", .name = "Impact pressure", .unit = "Pa", .to_unit = 1},
+    {.key = "jets", .name = "Jets that arrive", .unit = "", .to_unit = 1},
+};
+
 const double *sp_shown_values(const sp_deposits *deposits, int quantity)
 {
     const double *const values[SP_SHOWN_QUANTITIES] = {deposits->flux, deposits->speed, deposits->incidence,
@@ -62,15 +70,20 @@ static void scale_counts(sp_shown_quantity *q, double high)
     q->shown[1] = rounded_up(q->high);
 }
 
+/* As criteria know them; charts, of which they ask nothing, for the rest. */
+static sp_quantity asked_quantity(int quantity)
+{
+    static const sp_quantity quantities[SP_SHOWN_QUANTITIES] = {
+        SP_QUANTITY_FLUX, SP_QUANTITY_SPEED, SP_QUANTITY_INCIDENCE, SP_QUANTITY_CHARTS, SP_QUANTITY_CHARTS};
+    return quantities[quantity];
+}
+
 static void add_steps(const sp_page *page, sp_shown_quantities *shown)
 {
-    static const sp_quantity quantities[] = {[SP_SHOWN_FLUX] = SP_QUANTITY_FLUX,
-                                             [SP_SHOWN_SPEED] = SP_QUANTITY_SPEED,
-                                             [SP_SHOWN_INCIDENCE] = SP_QUANTITY_INCIDENCE};
-    for (int k = SP_SHOWN_FLUX; k <= SP_SHOWN_INCIDENCE; ++k) {
+    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k) {
         sp_shown_quantity *q = &shown->of[k];
         q->step_count =
-            sp_colour_thresholds(page->result->designs, page->result->design_count, quantities[k], q->steps);
+            sp_colour_thresholds(page->result->designs, page->result->design_count, asked_quantity(k), q->steps);
         for (int i = 0; i < q->step_count; ++i)
             q->steps[i] *= q->to_unit;
     }
@@ -80,15 +93,8 @@ sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
 {
     sp_shown_quantities shown = {.count = any_jets(page) ? SP_SHOWN_QUANTITIES : SP_SHOWN_JETS};
     sp_shown_quantity *quantities = shown.of;
-    const sp_shown_quantity all[SP_SHOWN_QUANTITIES] = {
-        {.key = "flux", .name = "Liquid flux", .unit = "L/min per m\xc2\xb2", .to_unit = 6e4},
-        {.key = "speed", .name = "Impact speed", .unit = "m/s", .to_unit = 1},
-        {.key = "incidence", .name = "Incidence", .unit = "deg", .to_unit = 180 / M_PI},
-        {.key = "impact", .name = "Impact pressure", .unit = "Pa", .to_unit = 1},
-        {.key = "jets", .name = "Jets that arrive", .unit = "", .to_unit = 1},
-    };
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
-        quantities[k] = all[k];
+        quantities[k] = words[k];
     scale_by_ratios(&quantities[SP_SHOWN_FLUX], 6e4 * most(page, SP_SHOWN_FLUX));
     quantities[SP_SHOWN_FLUX].shown[0] = 6e4 * page->flux.low;
     quantities[SP_SHOWN_FLUX].shown[1] = 6e4 * page->flux.high;
@@ -100,9 +106,30 @@ sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
     return shown;
 }
 
-uint8_t sp_shown_byte(const sp_shown_quantity *q, double value)
+double sp_shown_asked(const sp_design *design, int quantity)
+{
+    return words[quantity].to_unit * sp_colour_threshold(design, asked_quantity(quantity));
+}
+
+static double value_of(const sp_shown_quantity *q, int byte)
+{
+    double place = (byte - 1) / 254.0;
+    return q->log ? q->low * pow(q->high / q->low, place) : q->low + place * (q->high - q->low);
+}
+
+static bool does_meet(const sp_shown_quantity *q, double asked, double told)
+{
+    return q->at_most ? told <= asked : told >= asked;
+}
+
+uint8_t sp_shown_byte(const sp_shown_quantity *q, double asked, double value)
 {
     double told = value * q->to_unit;
     double place = q->log ? log(told / q->low) / log(q->high / q->low) : (told - q->low) / (q->high - q->low);
-    return (uint8_t)(1 + lrint(254 * fmin(fmax(place, 0), 1)));
+    int byte = (int)(1 + lrint(254 * fmin(fmax(place, 0), 1)));
+    /* What was rounded past what is asked goes back: the reader sees the value beside whether it is covered. */
+    bool meets = does_meet(q, asked, told);
+    if (asked > 0 && does_meet(q, asked, value_of(q, byte)) != meets)
+        byte += meets == q->at_most ? -1 : 1;
+    return (uint8_t)(byte < 1 ? 1 : byte > 255 ? 255 : byte);
 }

@@ -14,6 +14,7 @@ typedef struct {
     double to_unit; /* times a value in SI */
     double low, high;
     bool log, whole;                    /* whole: a count */
+    bool at_most;                       /* a criterion asks for at most so much, not at least */
     double shown[2];                    /* ends of the colour bar */
     double steps[SP_COLOUR_THRESHOLDS]; /* what the designs' criteria ask for, each once, the least first */
     int step_count;
@@ -27,7 +28,9 @@ typedef struct {
 /* One scale for all designs of the page. */
 sp_shown_quantities sp_shown_quantities_of(const sp_page *page);
 const double *sp_shown_values(const sp_deposits *deposits, int quantity);
-/* `value` in SI. */
-uint8_t sp_shown_byte(const sp_shown_quantity *quantity, double value);
+/* What a design's criterion asks for, in the reader's unit; 0: nothing. */
+double sp_shown_asked(const sp_design *design, int quantity);
+/* `value` in SI. What the byte stands for meets what is asked where the value does, and not where it does not. */
+uint8_t sp_shown_byte(const sp_shown_quantity *quantity, double asked, double value);
 
 #endif

@@ -84,13 +84,25 @@ function makeScales(view) {
     const admits = (quantity, scale) => quantity.key in state.scales &&
         (scale === "linear" || (scale === "log" ? quantity.shown[0] > 0 || quantity.log : quantity.steps.length > 0));
 
-    /* The same byte in words. */
-    function figure(quantity, byte) {
+    /* To as many digits as keep it on the side of what is asked where it is, which the verdict beside it goes by. */
+    function rounded(value, digits, asked, atMost) {
+        const meets = (told) => (atMost ? told <= asked : told >= asked);
+        let told = Number(value.toPrecision(digits));
+        for (let more = digits + 1; asked > 0 && meets(told) !== meets(value) && more < 17; more++)
+            told = Number(value.toPrecision(more));
+        return told;
+    }
+
+    /* The same byte in words; `asked` by the design's criterion, if anything. Steps of equal ratios are of 4.6 %, which
+     * two digits say. */
+    function figure(quantity, byte, asked) {
         if (byte === 0)
             return "none";
-        const value = quantity.whole ? Math.round(valueOf(quantity, byte)) : valueOf(quantity, byte);
-        const beyond = quantity.whole ? "" : byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least " : "";
-        return `${beyond}${Number(value.toPrecision(3))} ${quantity.unit}`.trimEnd();
+        const value = valueOf(quantity, byte), steps = quantity.log && !quantity.whole;
+        const told = quantity.whole ? Math.round(value) : rounded(value, steps ? 2 : 3, asked, quantity.atMost);
+        const beyond = quantity.whole ? "" : byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least "
+            : steps ? "about " : "";
+        return `${beyond}${quantity.whole ? Number(told.toPrecision(3)) : told} ${quantity.unit}`.trimEnd();
     }
     return {SCALES, HALF, MAPS: Object.keys(maps), palette, valueOf, stepAt, shade, ticksOf, beyond, admits, figure};
 }

@@ -1,7 +1,7 @@
 /* The worker that evaluates layouts (worker.js). */
 function makeEvaluator(live) {
     "use strict";
-    const {view, editing, model} = live, {types} = editing;
+    const {view, editing, model, design} = live, {types} = editing;
 
     async function startWorker() {
         const script = await view.inflated(document.getElementById("live-worker").textContent);
@@ -32,8 +32,9 @@ function makeEvaluator(live) {
             names: new TextEncoder().encode(editing.parts.map((part) => part.name + zero).join("")),
             types: Float64Array.from(types.flatMap((type) => type.numbers)),
             members: Float64Array.from(editing.members.flat())};
+        const shown = view.about.quantities.map((quantity, k) => ({...quantity, asked: design.asked[k]}));
         const module = await view.inflated(document.getElementById("live-module").textContent);
-        await ask("open", {module, arrays, shown: view.about.quantities});
+        await ask("open", {module, arrays, shown});
         live.ask = ask;
     }
     return {open};

@@ -9,6 +9,7 @@
     const model = view.about.models.find((other) => other.surface);
     const empty = new Uint8Array(model.patches);
     const design = {index: view.about.models.length + 1e6, name: "Yours", quote: "", manual: false, first: false, model,
+                    asked: view.designs.find((other) => other.model === model).asked,
                     values: Object.fromEntries(view.about.quantities.map(({key}) => [key, empty])), share: empty,
                     film: empty, shadowOf: empty, shadows: [], nozzles: [], jets: []};
     const live = {view, editing, model, empty, design, origin: editing.settings.slice(13, 16), LITRES: 6e4,

@@ -38,13 +38,18 @@
     }
 
     /* As quantities.c. */
-    function bytesOf(values, {low, high, log, toUnit}, flux) {
+    function bytesOf(values, {low, high, log, toUnit, atMost, asked}, flux) {
         const bytes = new Uint8Array(values.length), span = log ? Math.log(high / low) : high - low;
+        const meets = (value) => (atMost ? value <= asked : value >= asked);
+        const valueOf = (byte) => (log ? low * Math.exp((span * (byte - 1)) / 254) : low + (span * (byte - 1)) / 254);
         for (let i = 0; i < values.length; i++) {
             if (!(flux[i] > 0))
                 continue;
             const told = values[i] * toUnit, place = (log ? Math.log(told / low) : told - low) / span;
-            bytes[i] = 1 + Math.round(254 * Math.min(Math.max(place, 0), 1));
+            let byte = 1 + Math.round(254 * Math.min(Math.max(place, 0), 1));
+            if (asked > 0 && meets(valueOf(byte)) !== meets(told))
+                byte += meets(told) === atMost ? -1 : 1;
+            bytes[i] = Math.min(Math.max(byte, 1), 255);
         }
         return bytes;
     }
