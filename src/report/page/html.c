@@ -63,7 +63,9 @@ static const char *const style[] = {
     ".grid{stroke:var(--line)}\n.tick{stroke:var(--ink);fill:none}\n.swatch{stroke:#8b97a1}\n"
     ".front{fill:none;stroke:#0b6670;stroke-width:2}\n.point{fill:#0b6670}\n"
     ".bound{fill:none;stroke:#8a5a00;stroke-width:1.5;stroke-dasharray:6 4}\n"
-    "dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 22px;margin:0}\ndt{font-weight:600}\ndd{margin:0}\n"
+    /* Terms hold names of any length. */
+    "dl{display:grid;grid-template-columns:fit-content(16em) minmax(0,1fr);gap:6px 22px;margin:0}\n"
+    "dt{font-weight:600}\ndd{margin:0}\ndt,dd{overflow-wrap:anywhere}\n"
     "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
     ".digest,code{overflow-wrap:anywhere;font-family:ui-monospace,\"DejaVu Sans Mono\",monospace;font-size:.92em}\n",
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
