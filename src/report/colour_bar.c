@@ -229,13 +229,13 @@ void sp_page_colour_bar(const sp_page *page, sp_text *text)
     const sp_quantity_words *words = &sp_quantity_words_of[scale->style.quantity];
     bool charts = scale->style.quantity == SP_QUANTITY_CHARTS, film = !charts && shows_film(page);
     int height = film ? 86 : 64, lines = LINE * lines_of_criteria(page);
-    sp_text_add(
-        text,
-        "<svg class=\"bar\" viewBox=\"0 0 860 %d\" role=\"img\" aria-label=\"Colour bar: %s%s%s, %s; grey: needs "
-        "no cleaning\">\n<defs>",
-        height + lines, words->name, *words->unit ? ", " : "", words->unit,
-        charts ? "neighbours in different colours"
-               : "from dark for little to light for much; hatched red: not covered");
+    sp_text_add(text,
+                "<div class=\"wide\"><svg class=\"bar\" viewBox=\"0 0 860 %d\" role=\"img\" aria-label=\"Colour bar: "
+                "%s%s%s, %s; grey: needs "
+                "no cleaning\">\n<defs>",
+                height + lines, words->name, *words->unit ? ", " : "", words->unit,
+                charts ? "neighbours in different colours"
+                       : "from dark for little to light for much; hatched red: not covered");
     add_gradient(text, scale->style.colours);
     add_hatch(text);
     sp_text_add(text, "</defs>\n<text x=\"%g\" y=\"%d\">%s%s%s%s</text>", LEFT, charts ? 34 : 13, words->name,
@@ -245,5 +245,5 @@ void sp_page_colour_bar(const sp_page *page, sp_text *text)
         add_criteria(page, text, height, film);
     }
     add_swatches(text, !charts, film);
-    sp_text_add(text, "</svg>\n");
+    sp_text_add(text, "</svg></div>\n");
 }

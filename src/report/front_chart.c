@@ -294,7 +294,8 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
         return;
     axes a = choose_axes(page);
     sp_text_add(text,
-                "<section id=\"front\"><h2>Coverage against %s</h2>\n<svg class=\"chart\" viewBox=\"0 0 %d %d\" "
+                "<section id=\"front\"><h2>Coverage against %s</h2>\n<div class=\"wide\"><svg class=\"chart\" "
+                "viewBox=\"0 0 %d %d\" "
                 "role=\"img\" aria-label=\"Chart: coverage in per cent against %s in litres a minute\">\n",
                 page->costly ? "price" : "water", WIDTH,
                 HEIGHT + (is_below(page) ? 22 * (int)legend_lines(page) + 8 : 0), page->costly ? "price" : "water");
@@ -304,7 +305,7 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_front(page, text, &a, i);
     add_designs(page, text, &a);
-    sp_text_add(text, "</svg>\n");
+    sp_text_add(text, "</svg></div>\n");
     if (front)
         add_note(page, text);
     sp_text_add(text, "</section>\n");

@@ -48,6 +48,28 @@ static void the_page_is_not_blank(void **state)
     assert_true(picture_size("placed/report.html") > 10 * picture_size("blank.html"));
 }
 
+/* What a reader of a phone's width finds: letters that can be read, and nothing that makes the page scroll sideways. */
+static void it_is_legible_on_a_phone(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    write_page_with_reader("placed/report.html", "", "narrow.js");
+    write_file("phone.html",
+               "<!doctype html><title>phone</title><iframe src=\"read.html\" width=\"390\" height=\"844\" "
+               "style=\"border:0\"></iframe><script>addEventListener('message', ({data}) => {"
+               "const told = document.createElement('pre'); told.id = 'told'; told.textContent = data; "
+               "document.body.append(told)})</script>");
+    char *page = browse("phone.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
+    json_t *told = what_was_told(page);
+    assert_string_equal(json_string_value(json_object_get(told, "ready")), "true");
+    assert_int_equal(json_integer_value(json_object_get(told, "width")), 390);
+    assert_int_equal(json_integer_value(json_object_get(told, "scrolled")), 390);
+    for (size_t i = 0; i < 2; i++)
+        assert_true(json_number_value(json_array_get(json_object_get(told, "letters"), i)) >= 11);
+    json_decref(told);
+    free(page);
+}
+
 /* The PDF that the browser prints. */
 static char *print_page(const char *page, size_t *size)
 {
@@ -124,6 +146,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
         cmocka_unit_test(the_page_is_not_blank),
+        cmocka_unit_test(it_is_legible_on_a_phone),
         cmocka_unit_test(it_prints_without_the_viewer),
         cmocka_unit_test(each_sheet_prints_alone),
     };

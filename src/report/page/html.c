@@ -74,7 +74,9 @@ static const char *const style[] = {
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
     ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper);z-index:1}"
     ".decided{position:sticky;right:0;background:var(--paper);box-shadow:-1px 0 var(--line)}}\n",
-    "@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / "
+    /* Drawings are no smaller than their letters can be read: where there is less room they scroll. */
+    "@media screen{.chart,.bar{min-width:720px}}\n@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm "
+    "18mm;@bottom-right{content:counter(page) \" / "
     "\" counter(pages);"
     "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
