@@ -70,6 +70,20 @@ static void it_is_legible_on_a_phone(void **state)
     free(page);
 }
 
+/* In place of pictures that cannot be drawn. */
+static void without_webgl_it_says_so(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    static const char sentence[] = "This browser draws no pictures that turn";
+    char *page = browse("placed/report.html", "--disable-3d-apis --virtual-time-budget=20000 --dump-dom");
+    assert_int_equal(occurrences(page, sentence) - occurrences(page, "\""
+                                                                     "This browser draws"),
+                     1);
+    assert_null(strstr(page, "<section id=\"viewer\" hidden"));
+    free(page);
+}
+
 /* The PDF that the browser prints. */
 static char *print_page(const char *page, size_t *size)
 {
@@ -147,6 +161,7 @@ int main(void)
         cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
         cmocka_unit_test(the_page_is_not_blank),
         cmocka_unit_test(it_is_legible_on_a_phone),
+        cmocka_unit_test(without_webgl_it_says_so),
         cmocka_unit_test(it_prints_without_the_viewer),
         cmocka_unit_test(each_sheet_prints_alone),
     };

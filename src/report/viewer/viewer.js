@@ -1,17 +1,26 @@
 /* The report's viewer: the surface in colours that may be turned, cut and asked, every design under one camera. Needs
- * WebGL 2; without it the section stays hidden and the page is what it is on paper. Of the files before this one each
+ * WebGL 2; without it the section says so and the page is what it is on paper. Of the files before this one each
  * makes a part of it from what those before it have made. */
 const viewer = (async () => {
     "use strict";
-    const section = document.getElementById("viewer");
-    if (!section || !window.WebGL2RenderingContext || !window.DecompressionStream)
+    const section = document.getElementById("viewer"), {element} = widgets;
+    function withoutPictures() {
+        const more = document.getElementById("live-model") ? ", and no layout can be tried" : "";
+        section.append(element("p", {class: "note"}, "This browser draws no pictures that turn, for which it needs " +
+            `WebGL 2: nothing can be looked at from other sides here${more}. The rest of the report is as ever.`));
+        section.hidden = false;
         return null;
+    }
+    if (!section)
+        return null;
+    if (!window.WebGL2RenderingContext || !window.DecompressionStream)
+        return withoutPictures();
     /* first: the browser brings up meanwhile what the context below waits for */
-    const {about, designs, inflated} = await readData(), {element} = widgets;
+    const {about, designs, inflated} = await readData();
     const canvas = element("canvas", {});
     const gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!gl)
-        return null;
+        return withoutPictures();
     const flux = about.quantities.find((quantity) => quantity.key === "flux");
     const coverage = {key: "covered", name: "Covered"};
     const difference = {key: "difference", name: "Difference"};
