@@ -269,6 +269,16 @@ static void keys_turn_and_fit(void **state)
     assert_true(looks_alike(json_object_get(found, "first"), json_object_get(found, "fitted")));
 }
 
+static void names_do_not_lie_over_each_other(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *crowd = json_object_get(found, "crowd");
+    assert_true(number(crowd, "all") == 60 && number(crowd, "shown") >= 1 && number(crowd, "shown") < 60);
+    assert_false(json_is_true(json_object_get(crowd, "overlaps")));
+    assert_true(json_is_true(json_object_get(crowd, "chosen")));
+}
+
 static void rows_of_the_tables_act(void **state)
 {
     (void)state;
@@ -332,6 +342,7 @@ int main(void)
         cmocka_unit_test(a_point_is_told_as_it_is),
         cmocka_unit_test(no_figure_contradicts_the_criterion),
         cmocka_unit_test(keys_turn_and_fit),
+        cmocka_unit_test(names_do_not_lie_over_each_other),
         cmocka_unit_test(rows_of_the_tables_act),
         cmocka_unit_test(jets_that_arrive_are_shown),
     };

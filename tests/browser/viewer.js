@@ -138,6 +138,21 @@ const shown = viewer;
     const view = await shown, proposed = view.designs.find(({name}) => name === "Proposed");
     found.fluxes = Array.from(proposed.values.flux, (byte) => view.figure(view.flux, byte, proposed.asked[0]));
     found.places = [-0.0004, -0.0006].map(view.placeText);
+
+    /* A crowd of nozzles: names that show do not lie over each other, the chosen one's among them. */
+    const real = proposed.nozzles, [first] = real;
+    proposed.nozzles = Array.from({length: 60}, (_, i) => ({...first, name: `Nozzle ${i + 1}`,
+        at: first.at.map((x, k) => x + 0.003 * ((i * (k + 2)) % 7))}));
+    view.state.nozzle = {design: proposed, index: 41};
+    view.moveLabels();
+    const names = [...viewer.querySelectorAll(".nozzle-dot")].filter((name) => name.textContent.startsWith("Nozzle"));
+    const boxes = names.filter((name) => !name.hidden).map((name) => name.getBoundingClientRect());
+    found.crowd = {all: names.length, shown: boxes.length,
+        overlaps: boxes.some((a, i) => boxes.slice(0, i).some((b) =>
+            a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)),
+        chosen: names.some((name) => name.classList.contains("chosen") && !name.hidden)};
+    [proposed.nozzles, view.state.nozzle] = [real, null];
+    view.moveLabels();
     found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
         .filter((name) => !name.startsWith("blob:")); /* the worker, which the page made itself */
     told.textContent = JSON.stringify(found);
