@@ -44,7 +44,8 @@ static const char *const style[] = {
     "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500}\n"
     ".sub th:first-child{text-align:right}\nth,td{overflow-wrap:break-word;hyphens:manual}.lack{white-space:nowrap}\n"
     "td:last-child{font-weight:600}\n.small{font-size:13.5px}\n.small td:last-child{font-weight:400}\n"
-    ".small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
+    /* "Nozzle-12" does not break at its hyphen */
+    ".small th[scope=row]{min-width:10ch}\n.small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
     ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
     ".of2{grid-template-columns:repeat(2,minmax(0,1fr))}\n.of3{grid-template-columns:repeat(3,minmax(0,1fr))}\n"
     "figure{margin:0}\nfigcaption{text-align:center;font-size:14px;font-weight:600;overflow-wrap:anywhere}\n"
@@ -85,7 +86,9 @@ static const char *const style[] = {
     ".small thead th{font-size:8.5pt}.view{max-height:72mm}"
     ".cards{grid-template-columns:repeat(auto-fit,minmax(40mm,1fr))}.card{padding:8px 10px}.card "
     ".value{font-size:14pt}.card .unit{font-size:8.5pt}"
-    "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
+    /* A table that may be longer than a page breaks: held together, it would leave the page before it empty. */
+    "figure,.card,.wide:not(:has(tbody>tr:nth-child(25))),tr,dl>div,.chart,.block{break-inside:avoid}thead{display:"
+    "table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
     /* Each sheet goes to the workshop by itself. */
     ".sheet:not(:target){break-before:page;break-after:page}.alone,.early:not(:target){display:none}"
