@@ -34,6 +34,24 @@ static double text_width(const char *name)
     return LETTER_WIDTH * letters;
 }
 
+#define SHARE 0.5 /* of a picture's width, that a name may take */
+
+/* Cuts a name that would not go into the picture, and marks it as cut. */
+static void shorten(sp_text *name, double width)
+{
+    size_t letters = 0, most = width > 0 ? (size_t)fmax(SHARE * width / LETTER_WIDTH, 4) : SIZE_MAX;
+    const char *at = name->text, *cut = NULL;
+    for (; *at; ++at) {
+        letters += (*at & 0xc0) != 0x80;
+        if (letters == most && !cut)
+            cut = at;
+    }
+    if (letters <= most || name->failed)
+        return;
+    name->length = (size_t)(cut - name->text);
+    sp_text_add(name, "\xe2\x80\xa6");
+}
+
 #define WAYS 16
 #define RINGS 6
 #define RING 26.0 /* pixels */
@@ -84,18 +102,26 @@ static void place_name(sp_labels *labels, sp_text *text, const char *name, const
 
 static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const double dot[2])
 {
-    char *name = sp_text_utf8(bytes);
+    char *whole = sp_text_utf8(bytes);
+    sp_text name = {0};
     double at[2] = {0, 0};
-    if (name)
-        place_name(labels, text, name, dot, at);
+    sp_text_add(&name, "%s", whole ? whole : "");
+    text->failed |= !whole || name.failed;
+    free(whole);
+    if (text->failed) {
+        free(name.text);
+        return;
+    }
+    shorten(&name, labels->width);
+    place_name(labels, text, name.text, dot, at);
     sp_text_add(text,
                 "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" "
                 "y=\"%.1f\">",
                 dot[0], dot[1], at[0], at[1]);
-    sp_markup_escape(text, name ? name : "");
+    sp_markup_escape(text, name.text);
     sp_text_add(text, "</text>\n");
-    text->failed |= !name;
-    free(name);
+    text->failed |= name.failed;
+    free(name.text);
 }
 
 void sp_labels_nozzles(sp_labels *labels, sp_text *text, const sp_camera *camera, const sp_layout *layout)
