@@ -1,4 +1,4 @@
-/* The viewer's place in the page. Hidden until its script finds that it can draw. */
+/* The viewer's place in the page. Hidden until its script draws there, or says that it cannot. */
 #include "live.h"
 #include "model.h"
 #include "script.h"
