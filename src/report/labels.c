@@ -34,7 +34,7 @@ static double text_width(const char *name)
     return LETTER_WIDTH * letters;
 }
 
-#define SHARE 0.5 /* of a picture's width, that a name may take */
+#define SHARE 0.6 /* of a picture's width, that a name may take: its letters may be wider than most */
 
 /* Cuts a name that would not go into the picture, and marks it as cut. */
 static void shorten(sp_text *name, double width)
@@ -96,6 +96,8 @@ static void place_name(sp_labels *labels, sp_text *text, const char *name, const
     } else if (i == count) {
         at[0] = dot[0] + sides[0][0];
         at[1] = dot[1] + sides[0][1];
+        if (labels->width > 0) /* over others rather than over the next picture */
+            at[0] = fmax(fmin(at[0], labels->width - width), 0);
     }
     take(labels, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4});
 }
