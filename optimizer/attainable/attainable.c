@@ -237,7 +237,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
         done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
                (deadline->cancelled || (sp_attain_by_fields(fine, search, scopes, deadline, reasons, error) &&
                                         (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
-                                               : sp_bounces(fine, search, reasons, error))));
+                                               : sp_bounces(fine, search, deadline, reasons, error))));
         doubt(search, sp_evaluator_patches(fine)->count, reasons);
     }
     free(scopes);

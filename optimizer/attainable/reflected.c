@@ -8,6 +8,7 @@
 #define JETS_LEAST 256.0 /* of a mounting point and a launch */
 #define JETS_MOST 16384.0
 #define BOUNCES 3
+#define SHARE 0.1  /* of the time left, at most: it explains what is dry and finds no nozzle */
 #define MOUTH 1e-7 /* texels that a jet flies off a wall before anything stops it */
 
 /* One jet, from wall to wall; marks the patches that it meets after its first reflection. */
@@ -67,10 +68,28 @@ static bool anything_reflects(const sp_setup *setup)
     return false;
 }
 
-bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *reasons, sp_error *error)
+/* Marks the coarse patches that reflected jets of all sites meet, as far as time goes. */
+static void follow_all(const sp_search *search, sp_deadline *deadline, bool *met)
 {
-    size_t patches = sp_evaluator_patches(fine)->count, views = search->sites->count * search->candidates->launch_count;
-    size_t unseen = 0;
+    size_t launches = search->candidates->launch_count, views = search->sites->count * launches;
+    size_t jets = (size_t)fmin(JETS_MOST, fmax(JETS_LEAST, JETS / (double)views));
+    double until = (1 - SHARE) * sp_deadline_left(deadline);
+    bool late = false;
+#pragma omp parallel for num_threads(sp_threads(&search->options->run)) schedule(dynamic, 1) reduction(|| : late)
+    for (size_t i = 0; i < views; i++) {
+        if (!sp_deadline_goes_on(deadline, "attainable", 1) || sp_deadline_left(deadline) < until)
+            late = true;
+        else
+            follow_site(search, &search->sites->items[i / launches], i % launches, jets, met);
+    }
+    if (late)
+        sp_deadline_cut(deadline, "attainable");
+}
+
+bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
+                sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(fine)->count, unseen = 0;
     for (size_t p = 0; p < patches; p++)
         unseen += reasons[p] == SP_REASON_NO_LINE;
     if (!unseen || !anything_reflects(sp_evaluator_setup(fine)))
@@ -78,12 +97,7 @@ bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *re
     bool *met = calloc(search->patch_count ? search->patch_count : 1, sizeof *met);
     if (!met)
         return sp_fail_memory(error);
-    size_t jets = (size_t)fmin(JETS_MOST, fmax(JETS_LEAST, JETS / (double)views));
-    int threads = sp_threads(&search->options->run);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < views; i++)
-        follow_site(search, &search->sites->items[i / search->candidates->launch_count],
-                    i % search->candidates->launch_count, jets, met);
+    follow_all(search, deadline, met);
     for (size_t p = 0; p < patches; p++) {
         uint32_t patch = reasons[p] == SP_REASON_NO_LINE ? sp_coarse_patch(fine, search->coarse, p) : SP_NONE;
         if (patch != SP_NONE && met[patch])

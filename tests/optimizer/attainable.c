@@ -197,6 +197,47 @@ static void by_reflection_only(void **state)
     }
 }
 
+/* Interrupts when it has been asked so many times during the stage. */
+typedef struct {
+    size_t asked, most;
+} patience;
+
+static bool ask(void *user, const char *stage, double done)
+{
+    patience *own = user;
+    (void)done;
+    own->asked += !strcmp(stage, "attainable");
+    return own->asked <= own->most;
+}
+
+/* The same room over a floor that mirrors or does not, until that is asked so many times. */
+static double reflected_area(double mirror, patience *patience)
+{
+    job j;
+    job_begin(&j, 40 * DEGREE);
+    room_part(&j.builder, "ceiling");
+    room_sheet(&j.builder, sp_v(-3, -3, 3), sp_v(6, 0, 0), sp_v(0, 6, 0));
+    room_open(&j.room, &j.builder, 4 * TEXEL);
+    j.room.surfaces[0].restitution = mirror;
+    j.options.run.progress = ask;
+    j.options.run.user = patience;
+    job_place(&j);
+    double area = j.area[SP_REASON_REFLECTION];
+    job_end(&j);
+    return area;
+}
+
+static void reflections_stop_when_they_are_interrupted(void **state)
+{
+    (void)state;
+    patience before = {.most = SIZE_MAX}, all = before;
+    assert_true(reflected_area(0, &before) == 0);
+    assert_true(reflected_area(1, &all) > 0);
+    assert_true(all.asked > before.asked);
+    patience little = {.most = before.asked};
+    assert_true(reflected_area(1, &little) == 0);
+}
+
 /* Two nozzles bring twice the flux of one: with `sum` that counts, with `single` it does not. */
 static void together_or_each_alone(void **state)
 {
@@ -456,6 +497,7 @@ int main(void)
         cmocka_unit_test(a_plate_throws_its_shadow),
         cmocka_unit_test(slow_and_slanted),
         cmocka_unit_test(by_reflection_only),
+        cmocka_unit_test(reflections_stop_when_they_are_interrupted),
         cmocka_unit_test(together_or_each_alone),
         cmocka_unit_test(little_memory_is_enough),
         cmocka_unit_test(views_keep_within_memory),
