@@ -5,6 +5,7 @@
 #include "forward_check.h"
 #include "remedies.h"
 #include "scoring/footprints.h"
+#include "search/fill.h"
 #include "search/find.h"
 #include "ceres/least_squares.h"
 #include "refine/refine.h"
@@ -435,6 +436,9 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *giv
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 find(&placement, proposal, error) && is_sound(&placement, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.deadline, &placement.front, error) &&
+                sp_deadline_stage(&placement.deadline, "refine", error) &&
+                sp_fill_front(&placement.search, &placement.pool, &placement.deadline, &placement.front, error) &&
+                sp_deadline_stage(&placement.deadline, "fill", error) &&
                 sp_set_front(&placement.search, &placement.deadline, &placement.front, error) &&
                 is_sound(&placement, error) && propose(&placement, proposal, error) &&
                 sp_deadline_stage(&placement.deadline, "refine", error) && confirm(&placement, proposal, error) &&

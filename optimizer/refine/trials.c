@@ -63,27 +63,13 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
     return sp_try_also(refining, trials, &front->by_water.entries[i].partial, outlay, SP_TRIAL_OTHER);
 }
 
-/* All nozzles of the front's layouts; NULL when memory runs out. */
-static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
-{
-    size_t total = 0;
-    for (size_t i = 0; i < front->by_water.count; i++)
-        total += front->by_water.entries[i].partial.count;
-    const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
-    *count = 0;
-    for (size_t i = 0; nozzles && i < front->by_water.count; i++)
-        for (size_t n = 0; n < front->by_water.entries[i].partial.count; n++)
-            nozzles[(*count)++] = &front->by_water.entries[i].partial.items[n];
-    return nozzles;
-}
-
 bool sp_find_others(sp_refining *refining, sp_trials *trials)
 {
     const sp_tuned *tuned = &refining->local_search.tuned;
     size_t count = trials->count, nozzle_count;
     double *budgets = malloc((count + 1) * sizeof *budgets);
     sp_selection *selections = calloc(count + 1, sizeof *selections);
-    const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
+    const sp_placed **nozzles = sp_front_nozzles(refining->front, &nozzle_count);
     sp_coverage_matrix matrix = {0};
     bool done = (budgets && selections && nozzles) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < count; i++)

@@ -186,6 +186,19 @@ bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *p
     return true;
 }
 
+const sp_placed **sp_front_nozzles(const sp_front *front, size_t *count)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        total += front->by_water.entries[i].partial.count;
+    const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
+    *count = 0;
+    for (size_t i = 0; nozzles && i < front->by_water.count; i++)
+        for (size_t n = 0; n < front->by_water.entries[i].partial.count; n++)
+            nozzles[(*count)++] = &front->by_water.entries[i].partial.items[n];
+    return nozzles;
+}
+
 bool sp_front_counts(const sp_front *front, size_t i)
 {
     return i + 1 == front->by_water.count ||

@@ -215,10 +215,13 @@ static double price_of(const sp_coverage_matrix *matrix, size_t row, double powe
     return power == 0 ? 1 : pow(sp_coverage_matrix_outlay(matrix, row), power);
 }
 
-static sp_selection_answer find_best(sp_selection *selection, double power, float credit, double budget)
+const double *sp_selection_gains(sp_selection *selection, float credit, double budget)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
-    double merit = 0;
+    if (!has_number(selection)) {
+        memset(selection->score, 0, matrix->row_count * sizeof *selection->score);
+        return selection->score;
+    }
     const double *gains = find_gains(selection, credit);
     for (size_t r = 0; r < matrix->row_count; r++) {
         bool fits = gains[r] > NOISE && affords(selection, r, budget) && has_place(selection, r);
@@ -227,11 +230,19 @@ static sp_selection_answer find_best(sp_selection *selection, double power, floa
     for (size_t i = 0; i < selection->count; i++)
         if (selection->score[selection->row[i]] > 0)
             selection->score[selection->row[i]] = gain_of(selection, selection->row[i], credit) / matrix->search->all;
+    return selection->score;
+}
+
+static sp_selection_answer find_best(sp_selection *selection, double power, float credit, double budget)
+{
+    const sp_coverage_matrix *matrix = selection->matrix;
+    const double *gains = sp_selection_gains(selection, credit, budget);
+    double merit = 0;
     for (size_t r = 0; r < matrix->row_count; r++)
-        merit = fmax(merit, selection->score[r] / price_of(matrix, r, power));
+        merit = fmax(merit, gains[r] / price_of(matrix, r, power));
     for (size_t r = 0; merit > 0 && r < matrix->row_count; r++)
-        if (selection->score[r] > 0 && selection->score[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power))
-            return (sp_selection_answer){(uint32_t)r, selection->score[r] * matrix->search->all};
+        if (gains[r] > 0 && gains[r] + SP_SCORE_TIE >= merit * price_of(matrix, r, power))
+            return (sp_selection_answer){(uint32_t)r, gains[r] * matrix->search->all};
     return (sp_selection_answer){0};
 }
 

@@ -29,6 +29,9 @@ void sp_selection_remove(sp_selection *selection, size_t i);
 /* What a row would add to what is covered, and the credit for what is on the way; 0 where it does not fit within the
  * budget, the number or its port. */
 double sp_selection_gain(const sp_selection *selection, uint32_t row, double budget);
+/* What every row would add, without the credit or with the search's, in shares of all, 0 where it does not fit:
+ * [matrix->row_count], which holds until the selection is asked or changed again. */
+const double *sp_selection_gains(sp_selection *selection, float credit, double budget);
 /* The row of most gain per outlay^power, the first of equals, that fits within the budget, an uncovered patch being
  * worth `credit`, 0 or the search's, per share of what it needs; *gain in m², 0 for none. */
 uint32_t sp_selection_best(sp_selection *selection, double power, float credit, double budget, double *gain);

@@ -414,7 +414,7 @@ int cli_place(const cli_options *options)
     static const char *const stages[] = {"geometry",    "accelerator|wet sides|atlas|settings",
                                          "simulate",    "visibility|footprints",
                                          "attainable",  "greedy|exchange|front",
-                                         "refine",      "measured error|remedies|forward check",
+                                         "refine|fill", "measured error|remedies|forward check",
                                          "certificate", "report",
                                          NULL};
     cli_progress_plan(stages, 3, 6, 1);

@@ -1,6 +1,7 @@
 /* Searches in a coverage matrix of poses against every layout that can be made of them. */
 #include "prepared.h"
 
+#include "search/fill.h"
 #include "search/partial_enumeration.h"
 #include "search/tuned.h"
 
@@ -249,6 +250,90 @@ static void regrouping_never_loses(void **state)
     }
 }
 
+/* The most that layouts of the front cover with so much water. */
+static double front_area(const sp_front *front, double budget)
+{
+    double area = 0;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        if (front->by_water.entries[i].point.outlay <= budget)
+            area = fmax(area, front->by_water.entries[i].point.area);
+    return area;
+}
+
+/* A front of one layout, of much water, gets what is best for less. */
+static void a_front_is_filled(void **state)
+{
+    (void)state;
+    static const double waters[] = {7, 14, 16, 21, 23, 30, 32, 39, 48};
+    for (int single = 0; single < 2; single++) {
+        job j;
+        sp_error error = {0};
+        sp_coverage_matrix matrix;
+        sp_selection scratch;
+        sp_partial partial;
+        job_open(&j, single);
+        sp_front front = {.fine = j.room.evaluator, .objective = SP_OBJECTIVE_MAX_COVERAGE};
+        assert_true(sp_partial_create(&j.ready.search, &partial, &error));
+        for (size_t i = 0; partial.count < 3; i++)
+            if (j.ready.candidates.variants[j.pool.items[i].variant].type == &j.types[0])
+                assert_true(sp_partial_add_pose(&j.ready.search, &partial, j.pool.items[i], &error));
+        assert_true(sp_front_measure(&front, &j.ready.search, &partial, NULL, &error));
+        assert_true(sp_fill_front(&j.ready.search, &j.pool, &j.ready.deadline, &front, &error));
+        assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(sp_selection_create(&matrix, &scratch, &error));
+        for (size_t i = 0; i < sizeof waters / sizeof *waters; i++) {
+            double budget = LITRES(waters[i]) * (1 + SP_ROUNDING), best = best_of_all(&matrix, budget, &scratch);
+            /* what adds less than .3 % is not measured */
+            if (front_area(&front, budget) < best * (1 - SHORT_MOST - 0.003))
+                fail_msg("%g L/min: %g m2, the best is %g m2", waters[i], front_area(&front, budget), best);
+        }
+        sp_selection_free(&scratch);
+        sp_coverage_matrix_free(&matrix);
+        sp_partial_free(&partial);
+        sp_front_free(&front);
+        job_close(&j);
+    }
+}
+
+/* What every row adds is what the selection with it covers more, whether gains are kept up or found anew. */
+static void gains_are_what_rows_add(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        job j;
+        sp_error error = {0};
+        sp_coverage_matrix matrix;
+        sp_selection kept, anew;
+        job_open(&j, single);
+        assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
+        assert_true(sp_selection_create(&matrix, &kept, &error) && sp_selection_create(&matrix, &anew, &error));
+        double all = j.ready.search.all, budget = LITRES(23) * (1 + SP_ROUNDING);
+        for (uint32_t first = 0; first < matrix.row_count; first++) {
+            if (first) {
+                sp_selection_add(&kept, first);
+                sp_selection_remove(&kept, 0);
+            } else {
+                sp_selection_set(&kept, &first, 1);
+            }
+            double sum = 0;
+            const double *gains = sp_selection_gains(&kept, 0, budget);
+            for (uint32_t r = 0; r < matrix.row_count; r++) {
+                uint32_t rows[2] = {first, r};
+                sp_selection_set(&anew, rows, 2);
+                bool fits = anew.flow <= budget && fits_port(&matrix, rows, 2);
+                double more = fits ? anew.covered - kept.covered : 0;
+                assert_true(fabs(gains[r] * all - more) < 1e-5 * all);
+                sum += gains[r];
+            }
+            assert_true(sum > 0);
+        }
+        sp_selection_free(&kept);
+        sp_selection_free(&anew);
+        sp_coverage_matrix_free(&matrix);
+        job_close(&j);
+    }
+}
+
 /* Poses at other flows carry these, and stay what they were otherwise. */
 static void tuned_poses_say_their_flow(void **state)
 {
@@ -319,7 +404,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(enumeration_comes_near_the_best), cmocka_unit_test(two_merge_into_the_best_one),
         cmocka_unit_test(regrouping_never_loses),          cmocka_unit_test(tuned_poses_say_their_flow),
-        cmocka_unit_test(memos_tell_questions_apart),
+        cmocka_unit_test(memos_tell_questions_apart),      cmocka_unit_test(a_front_is_filled),
+        cmocka_unit_test(gains_are_what_rows_add),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
