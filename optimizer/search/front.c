@@ -201,8 +201,13 @@ const sp_placed **sp_front_nozzles(const sp_front *front, size_t *count)
 
 bool sp_front_counts(const sp_front *front, size_t i)
 {
-    return i + 1 == front->by_water.count ||
-           front->by_water.entries[i + 1].point.outlay > front->by_water.entries[i].point.outlay * (1 + FLOW_LEAST);
+    const sp_front_entry *entries = front->by_water.entries;
+    size_t next = front->by_water.count - 1;
+    assert(i < front->by_water.count);
+    for (size_t k = next; k > i; k--)
+        if (entries[next].point.outlay > entries[k - 1].point.outlay * (1 + FLOW_LEAST))
+            next = k - 1;
+    return next == i;
 }
 
 static sp_front_point *points_of(const sp_front *front, const sp_front_list *list, size_t *count, sp_error *error)

@@ -49,7 +49,7 @@ bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *p
 /* All nozzles of the layouts by water, one layout's after the other's; malloc'd, to be freed before anything is noted.
  * NULL when memory runs out. */
 const sp_placed **sp_front_nozzles(const sp_front *front, size_t *count);
-/* False where the next entry by water covers more with hardly more. */
+/* False where the next entry by water that counts covers more with hardly more. */
 bool sp_front_counts(const sp_front *front, size_t i);
 /* The points by water that count, and those by number, without one of no water; malloc'd, the caller frees. */
 sp_front_point *sp_front_by_water(const sp_front *front, size_t *count, sp_error *error);

@@ -295,6 +295,20 @@ static void a_front_is_filled(void **state)
     }
 }
 
+/* Of layouts that take hardly more than one another not all but the last are left out. */
+static void close_amounts_are_thinned(void **state)
+{
+    (void)state;
+    static const double waters[] = {1, 1.008, 1.016, 1.024};
+    static const bool counts[] = {false, true, false, true};
+    sp_front_entry entries[4] = {0};
+    const sp_front front = {.by_water = {.count = 4, .entries = entries}};
+    for (size_t i = 0; i < 4; i++)
+        entries[i].point = (sp_front_point){.outlay = waters[i], .area = (double)i};
+    for (size_t i = 0; i < 4; i++)
+        assert_int_equal(sp_front_counts(&front, i), counts[i]);
+}
+
 /* What every row adds is what the selection with it covers more, whether gains are kept up or found anew. */
 static void gains_are_what_rows_add(void **state)
 {
@@ -405,7 +419,7 @@ int main(void)
         cmocka_unit_test(enumeration_comes_near_the_best), cmocka_unit_test(two_merge_into_the_best_one),
         cmocka_unit_test(regrouping_never_loses),          cmocka_unit_test(tuned_poses_say_their_flow),
         cmocka_unit_test(memos_tell_questions_apart),      cmocka_unit_test(a_front_is_filled),
-        cmocka_unit_test(gains_are_what_rows_add),
+        cmocka_unit_test(gains_are_what_rows_add),         cmocka_unit_test(close_amounts_are_thinned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
