@@ -149,7 +149,7 @@ static void little_area_per_water_is_told(void **state)
     (void)state;
     write_file("much.yaml", "nozzles:\n"
                             "  - {name: drop, pattern: full_cone, angle: 120 deg, flow: 12 L/min, at: 2 bar}\n");
-    char scene[sizeof small_yaml];
+    char scene[2 * sizeof small_yaml];
     const char *at = strstr(small_yaml, "drops");
     snprintf(scene, sizeof scene, "%.*smuch%s", (int)(at - small_yaml), small_yaml, at + strlen("drops"));
     write_file("much_water.yaml", scene);
