@@ -252,6 +252,8 @@ static bool explore_all(sp_pareto *pareto, explorer *explorers, int threads, con
 bool sp_pareto_search(const sp_coverage_matrix *matrix, sp_deadline *deadline, const char *stage, sp_pareto *pareto,
                       sp_error *error)
 {
+    if (!pareto->count) /* no row is as light as what may be spent */
+        return true;
     int threads = sp_threads(&matrix->search->options->run);
     double each = WORK_EACH * (double)matrix->start[matrix->row_count] + 1;
     size_t left = (size_t)(WORK_MOST / each), count = 1;
