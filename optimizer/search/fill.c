@@ -64,32 +64,26 @@ static double known_to_cover(const sp_front *front, double outlay)
     return covered;
 }
 
-/* A layout of the search as a partial one, unless the front has as much for its outlay. */
-static bool build(const filling *f, const sp_pareto_layout *layout, sp_partial *partial, bool *worth)
+/* Layouts of the search as partial ones, where they cover clearly more than the front does for as much. All of them
+ * before any is noted: the front may then drop layouts whose nozzles they hold. */
+static bool build_all(const filling *f, sp_partial *partials, size_t *count)
 {
     sp_selection selection;
     if (!sp_selection_create(&f->matrix, &selection, f->error))
         return false;
-    sp_selection_set(&selection, layout->row, layout->count);
-    bool done = sp_selection_partial(&selection, partial, f->error);
-    sp_selection_free(&selection);
-    *worth = done && partial->covered > known_to_cover(f->front, partial->outlay) * (1 + GAIN_LEAST);
-    if (done && !*worth)
-        sp_partial_free(partial);
-    return done;
-}
-
-/* All that are worth measuring, before the front drops layouts whose nozzles they may hold. */
-static bool build_all(const filling *f, sp_partial *partials, size_t *count)
-{
     bool done = true;
-    *count = 0;
     for (size_t i = 0; done && i < f->pareto.count; i++) {
-        bool worth = false;
-        if (sp_pareto_counts(&f->pareto, i))
-            done = build(f, &f->pareto.layouts[i], &partials[*count], &worth);
-        *count += worth;
+        sp_partial *partial = &partials[*count];
+        if (!sp_pareto_counts(&f->pareto, i))
+            continue;
+        sp_selection_set(&selection, f->pareto.layouts[i].row, f->pareto.layouts[i].count);
+        done = sp_selection_partial(&selection, partial, f->error);
+        if (done && partial->covered > known_to_cover(f->front, partial->outlay) * (1 + GAIN_LEAST))
+            (*count)++;
+        else if (done)
+            sp_partial_free(partial);
     }
+    sp_selection_free(&selection);
     return done;
 }
 
@@ -97,20 +91,11 @@ static bool measure_all(const filling *f)
 {
     size_t count = 0;
     sp_partial *partials = calloc(f->pareto.count + 1, sizeof *partials);
-    const sp_partial **each = calloc(f->pareto.count + 1, sizeof *each);
-    sp_front_point *points = malloc((f->pareto.count + 1) * sizeof *points);
-    bool done = (partials && each && points) || sp_fail_memory(f->error);
-    done = done && build_all(f, partials, &count);
-    for (size_t i = 0; done && i < count; i++)
-        each[i] = &partials[i];
-    done = done && sp_front_measure_ahead(f->front, f->search, each, count, points, f->error);
-    for (size_t i = 0; done && i < count; i++)
-        done = sp_front_note(f->front, f->search, &partials[i], &points[i], f->error);
+    bool done = (partials || sp_fail_memory(f->error)) && build_all(f, partials, &count) &&
+                sp_front_measure_all(f->front, f->search, partials, count, f->error);
     for (size_t i = 0; i < count; i++)
         sp_partial_free(&partials[i]);
     free(partials);
-    free(each);
-    free(points);
     return done;
 }
 

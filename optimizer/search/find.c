@@ -166,21 +166,6 @@ static bool share_partials(const sp_finding *finding, sp_partial *partials, size
     return done;
 }
 
-static bool measure_all(const sp_finding *finding, const sp_partial *partials, size_t count)
-{
-    const sp_partial **each = calloc(count + 1, sizeof *each);
-    sp_front_point *points = malloc((count + 1) * sizeof *points);
-    bool done = (each && points) || sp_fail_memory(finding->error);
-    for (size_t i = 0; done && i < count; i++)
-        each[i] = &partials[i];
-    done = done && sp_front_measure_ahead(finding->front, finding->search, each, count, points, finding->error);
-    for (size_t i = 0; done && i < count; i++)
-        done = sp_front_note(finding->front, finding->search, &partials[i], &points[i], finding->error);
-    free(each);
-    free(points);
-    return done;
-}
-
 /* The best found within each budget, measured. */
 static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_selection *enumerated,
                            const double *budgets, size_t count)
@@ -194,7 +179,7 @@ static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, 
     done = done && walk_all(finding, budgets, partials, count);
     sp_ranks_rejoin(ranks_of(finding));
     done = done && share_partials(finding, partials, count);
-    done = done && measure_all(finding, partials, count);
+    done = done && sp_front_measure_all(finding->front, finding->search, partials, count, finding->error);
     for (size_t i = 0; partials && i < count; i++)
         sp_partial_free(&partials[i]);
     free(partials);
@@ -310,7 +295,7 @@ static bool try_every_layout(const sp_finding *finding)
     size_t count;
     bool done = sp_best_of_every_layout(finding->search, finding->front, finding->budget, finding->deadline, &partials,
                                         &count, finding->error) &&
-                measure_all(finding, partials, count);
+                sp_front_measure_all(finding->front, finding->search, partials, count, finding->error);
     for (size_t i = 0; i < count; i++)
         sp_partial_free(&partials[i]);
     free(partials);

@@ -186,6 +186,22 @@ bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *p
     return true;
 }
 
+bool sp_front_measure_all(sp_front *front, const sp_search *search, const sp_partial *partials, size_t count,
+                          sp_error *error)
+{
+    const sp_partial **each = calloc(count + 1, sizeof *each);
+    sp_front_point *points = malloc((count + 1) * sizeof *points);
+    bool done = (each && points) || sp_fail_memory(error);
+    for (size_t i = 0; done && i < count; i++)
+        each[i] = &partials[i];
+    done = done && sp_front_measure_ahead(front, search, each, count, points, error);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_front_note(front, search, &partials[i], &points[i], error);
+    free(each);
+    free(points);
+    return done;
+}
+
 const sp_placed **sp_front_nozzles(const sp_front *front, size_t *count)
 {
     size_t total = 0;

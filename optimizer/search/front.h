@@ -43,6 +43,9 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial
  * which those that nobody has measured have an area of -1. */
 bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
                             size_t count, sp_front_point *points, sp_error *error);
+/* Measures and notes layouts, measured ahead. */
+bool sp_front_measure_all(sp_front *front, const sp_search *search, const sp_partial *partials, size_t count,
+                          sp_error *error);
 /* As sp_front_measure, with what measuring ahead gave, if it gave anything. */
 bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                    sp_error *error);

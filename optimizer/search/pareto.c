@@ -1,6 +1,5 @@
 #include "search/pareto.h"
 
-#include <assert.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,18 +26,11 @@ typedef struct {
     neighbour *best;        /* [ranges] */
 } explorer;
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The ends of ranges: `outlays`, rising, and so many between as keep them short; returns how many. */
-static size_t set_ends(double least, double ratio, double *outlays, size_t count, double *ends)
+/* The ends of ranges: the outlays, and so many between as keep ranges short; returns how many. */
+static size_t set_ends(double least, double ratio, const double *outlays, size_t count, double *ends)
 {
     size_t found = 0;
     double before = least;
-    qsort(outlays, count, sizeof *outlays, by_size);
     for (size_t i = 0; i < count; i++) {
         size_t steps = outlays[i] > before ? (size_t)ceil(log(outlays[i] / before) / log(ratio)) : 0;
         for (size_t k = 1; k <= steps; k++)
@@ -51,21 +43,15 @@ static size_t set_ends(double least, double ratio, double *outlays, size_t count
 bool sp_pareto_create(const sp_coverage_matrix *matrix, const double *outlays, size_t count, sp_pareto *pareto,
                       sp_error *error)
 {
-    double least = INFINITY, most = 0, *rising = malloc((count + 1) * sizeof *rising);
+    double least = INFINITY, most = count ? outlays[count - 1] : 0;
     for (size_t r = 0; r < matrix->row_count; r++)
         least = fmin(least, matrix->search->kept_flow + sp_coverage_matrix_outlay(matrix, r));
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, outlays[i]);
     double between = most > least ? log(most / least) : 0, ratio = fmax(RATIO, exp(between / RANGES_MOST));
     *pareto = (sp_pareto){.ends = malloc(((size_t)(between / log(ratio)) + count + 2) * sizeof *pareto->ends)};
-    bool done = rising && pareto->ends;
-    if (done) {
-        memcpy(rising, outlays, count * sizeof *rising);
-        pareto->count = set_ends(least * (1 - SP_ROUNDING), ratio, rising, count, pareto->ends);
-        pareto->layouts = calloc(pareto->count + 1, sizeof *pareto->layouts);
-    }
-    free(rising);
-    return (done && pareto->layouts) || sp_fail_memory(error);
+    if (pareto->ends)
+        pareto->count = set_ends(least * (1 - SP_ROUNDING), ratio, outlays, count, pareto->ends);
+    pareto->layouts = calloc(pareto->count + 1, sizeof *pareto->layouts);
+    return (pareto->ends && pareto->layouts) || sp_fail_memory(error);
 }
 
 void sp_pareto_free(sp_pareto *pareto)

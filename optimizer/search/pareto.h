@@ -22,7 +22,7 @@ typedef struct {
     sp_pareto_layout *layouts; /* [count] */
 } sp_pareto;
 
-/* Ranges that end at each of the outlays (m³/s, in any order) and hold nothing else that differs by more than a
+/* Ranges that end at each of the outlays (m³/s, rising but for round-off) and hold nothing else that differs by more than a
  * hundredth. Freed by the caller, after failure too. */
 bool sp_pareto_create(const sp_coverage_matrix *matrix, const double *outlays, size_t count, sp_pareto *pareto,
                       sp_error *error);
