@@ -112,6 +112,20 @@ static inline json_t *read_with(const char *script, const char *report, const ch
     return told;
 }
 
+/* What NAME.js tells of the page of a simulation of NAME.yaml; NULL where it does not evaluate layouts. */
+static inline json_t *ask_page(const char *name)
+{
+    char line[200], report[100], script[100];
+    snprintf(line, sizeof line, "simulate %s.yaml -o %s --quiet", name, name);
+    snprintf(report, sizeof report, "%s/report.html", name);
+    snprintf(script, sizeof script, "%s.js", name);
+    outcome result = run_program(line);
+    forget(&result);
+    return can_evaluate(report)
+               ? read_with(script, report, "--window-size=1200,900 --virtual-time-budget=600000 --dump-dom")
+               : NULL;
+}
+
 /* What a script found in a page that it opened: nothing went wrong, and nothing was asked for outside of it. */
 static inline void assert_opened(const json_t *found)
 {

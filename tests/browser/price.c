@@ -19,12 +19,8 @@ static int ask_the_page(void **state)
 {
     if (open_workplace(state) != 0)
         return -1;
-    write_file("costly.yaml", costly_yaml);
-    outcome result = run_program("simulate costly.yaml -o costly --quiet");
-    forget(&result);
-    if (can_evaluate("costly/report.html"))
-        found = read_with("price.js", "costly/report.html",
-                          "--window-size=1200,900 --virtual-time-budget=600000 --dump-dom");
+    write_file("price.yaml", costly_yaml);
+    found = ask_page("price");
     return 0;
 }
 
@@ -76,7 +72,7 @@ static void the_reports_layout_costs_what_it_says(void **state)
     char path[1024];
     read_price("start", 0, price);
     read_price("start", 1, own);
-    snprintf(path, sizeof path, "%s/costly/result.json", workplace);
+    snprintf(path, sizeof path, "%s/price/result.json", workplace);
     expect_price(json_load_file(path, 0, NULL), price);
     assert_memory_equal(price, own, sizeof own);
 }
@@ -90,8 +86,8 @@ static void a_nozzle_more_costs_its_water_and_its_mount(void **state)
     read_price("added", 1, price);
     assert_float_equal(price[1] - start[1], 30 * (start[0] - 3) + 600, 4); /* the same type at the same pressure */
     const json_t *added = json_object_get(found, "added");
-    write_file("costly/changed.yaml", json_string_value(json_object_get(added, "scene")));
-    expect_price(expect_json("simulate costly/changed.yaml --json", 0), price);
+    write_file("price/changed.yaml", json_string_value(json_object_get(added, "scene")));
+    expect_price(expect_json("simulate price/changed.yaml --json", 0), price);
     assert_non_null(strstr(json_string_value(json_object_get(added, "said")), "Water and mounts cost"));
 }
 

@@ -1,20 +1,6 @@
 /* The page tells the little water of a small vessel, where it evaluates layouts itself, as its tables do. */
+#include "../cli/small_vessel.h"
 #include "browser.h"
-
-static const char small_yaml[] =
-    "geometry:\n"
-    "  - {file: room.obj, scale: 0.08}\n"
-    "cavity: [40 mm, 40 mm, 40 mm]\n"
-    "criterion: {flux: 1 L/min/m2}\n"
-    "catalogue: drops.yaml\n"
-    "nozzles:\n"
-    "  - {name: N1, type: drop, position: [40 mm, 40 mm, 72 mm], axis: [0, 0, -1], pressure: 2 bar}\n"
-    "simulate: {texel: 4 mm}\n"
-    "place:\n"
-    "  max_nozzles: 2\n"
-    "  pressure: 2 bar\n"
-    "  mounts:\n"
-    "    - port: {name: P1, position: [24 mm, 24 mm, 76 mm], axis: [0, 0, -1], tilt: 30 deg}\n";
 
 static json_t *found;
 
@@ -22,14 +8,8 @@ static int ask_the_page(void **state)
 {
     if (open_workplace(state) != 0)
         return -1;
-    write_file("drops.yaml", "nozzles:\n"
-                             "  - {name: drop, pattern: full_cone, angle: 120 deg, flow: 0.04 L/min, at: 2 bar}\n");
-    write_file("small.yaml", small_yaml);
-    outcome result = run_program("simulate small.yaml -o small --quiet");
-    forget(&result);
-    if (can_evaluate("small/report.html"))
-        found = read_with("small.js", "small/report.html",
-                          "--window-size=1200,900 --virtual-time-budget=600000 --dump-dom");
+    write_small_vessel();
+    found = ask_page("small");
     return 0;
 }
 

@@ -1,0 +1,117 @@
+/* What the page says of surface that no allowed nozzle reaches. */
+#define FOLDER BINARY_DIR "/report-reach-test"
+#include "written.h"
+
+/* Before anything else: how much, why, and of which parts. */
+static void what_is_out_of_reach_is_said_first(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    char *html = sp_report_html(&f->result, &error), text[200];
+    sp_figures *figures = sp_result_figures(&f->result, &error);
+    const char *first = strstr(html, "<p id=\"out-of-reach\" class=\"warning\">");
+    assert_true(first && first < strstr(html, "class=\"headline\""));
+    assert_true(strstr(html, "<section id=\"attainable\">") < strstr(html, "<section id=\"figures\">"));
+    const char *warning = strstr(html, "The coverage asked for is not reached");
+    snprintf(text, sizeof text, "no more than %.2f&nbsp;%% are attainable, so that %.1f&nbsp;%% were aimed at",
+             ceil(1e4 * figures[2].attainable_area / figures[2].clean_area) / 100, 5000 / figures[2].clean_area);
+    assert_true(warning && strstr(warning, text));
+    const char *table = strstr(html, "<caption>Out of reach, ");
+    assert_non_null(table);
+    for (size_t i = 0; i < figures[2].missing_count; i++) {
+        double sum = 0;
+        for (sp_reason reason = 0; reason < SP_REASONS; reason++)
+            sum += figures[2].missing[i].areas[reason];
+        same_real(sum, figures[2].missing[i].area);
+        snprintf(text, sizeof text, "%.4f</td></tr>", figures[2].missing[i].area);
+        assert_non_null(strstr(table, text));
+    }
+    sp_figures_destroy(figures, f->result.design_count);
+    free(html);
+}
+
+/* What the engineer's nozzles cover counts as attainable; that no allowed nozzle reaches it is told. */
+static void what_own_nozzles_alone_reach_is_told(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_result result = f->result;
+    sp_proposal proposal = f->proposal;
+    const sp_patches *patches = sp_evaluator_patches(f->evaluator);
+    double covered = 0;
+    proposal.attainable = malloc(patches->count * sizeof *proposal.attainable);
+    memset(proposal.attainable, true, patches->count);
+    result.proposal = &proposal;
+    char *html = sp_report_html(&result, &error);
+    assert_null(strstr(html, "id=\"beyond\""));
+    free(html);
+    memset(proposal.attainable, false, patches->count);
+    proposal.reasons = calloc(patches->count, sizeof *proposal.reasons);
+    for (size_t k = 0; k < patches->count; k++) {
+        bool any = false;
+        proposal.reasons[k] = SP_REASON_NO_LINE;
+        for (size_t i = 0; i < result.design_count; i++)
+            any = any || result.designs[i].coverage->deposits.covered[k];
+        covered += any ? patches->area[k] : 0;
+    }
+    sp_figures *figures = sp_result_figures(&result, &error);
+    assert_true(covered > SP_BEYOND_TOLD * patches->total_area);
+    same_real(figures[2].beyond_area, covered);
+    same_real(figures[2].missing_area[SP_REASON_NO_LINE], patches->total_area - covered);
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "<p id=\"beyond\" class=\"warning\">"));
+    free(html);
+    sp_figures_destroy(figures, result.design_count);
+    free(proposal.attainable);
+    free(proposal.reasons);
+}
+
+/* What liquid gets to, and too little of, more nozzles might reach: no fault of the vessel. */
+static void limits_are_told_from_faults(void **state)
+{
+    fixture *f = *state;
+    size_t patches = sp_evaluator_patches(f->evaluator)->count;
+    sp_reason *mixed = malloc(patches * sizeof *mixed), *little = malloc(patches * sizeof *little);
+    sp_proposal proposal = f->proposal;
+    sp_result result = f->result;
+    sp_error error = {0};
+    assert_true(mixed && little);
+    for (size_t i = 0; i < patches; i++) {
+        little[i] = f->proposal.reasons[i] == SP_REASON_ATTAINABLE ? SP_REASON_ATTAINABLE : SP_REASON_FLUX;
+        mixed[i] = i % 2 ? little[i] : f->proposal.reasons[i];
+    }
+    result.proposal = &proposal;
+    result.picture_share = -1;
+    const struct {
+        sp_reason *reasons;
+        size_t nozzles;
+        const char *says, *lacks;
+    } cases[] = {
+        {little, 1, "with no more than 1 nozzle (max_nozzles) and 40 L/min (max_water)", "is a fault of the"},
+        {mixed, 2, "with no more than 2 nozzles (max_nozzles) and 40 L/min (max_water)", " What is out of reach"},
+        {mixed, 2, " What else is out of reach", " What is out of reach"},
+        {f->proposal.reasons, 1, " What is out of reach", "for the limits alone"},
+    };
+    proposal.max_water = 40 / 6e4;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        proposal.reasons = cases[i].reasons;
+        proposal.max_nozzles = cases[i].nozzles;
+        char *html = sp_report_html(&result, &error);
+        assert_non_null(html);
+        assert_non_null(strstr(html, cases[i].says));
+        assert_null(strstr(html, cases[i].lacks));
+        free(html);
+    }
+    free(mixed);
+    free(little);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_out_of_reach_is_said_first),
+        cmocka_unit_test(what_own_nozzles_alone_reach_is_told),
+        cmocka_unit_test(limits_are_told_from_faults),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
