@@ -25,6 +25,14 @@ double sp_least_flow(const sp_search *search, const sp_placed *placed)
     return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
 }
 
+double sp_most_flow(const sp_search *search, const sp_placed *placed)
+{
+    double low, high;
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type, placed->nozzle.pressure,
+                  &low, &high);
+    return high > low * (1 + 1e-9) ? fmax(high, placed->flow) : placed->flow;
+}
+
 void sp_turn_down(const sp_search *search, sp_partial *partial, double water)
 {
     double total = search->kept_flow, spare = 0;

@@ -13,8 +13,9 @@
 bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline, sp_partial *partial,
                sp_error *error);
 
-/* The flow that a nozzle may be turned down to; its own where that is fixed. */
+/* The flow that a nozzle may be turned down to, and up to; its own where that is fixed. */
 double sp_least_flow(const sp_search *search, const sp_placed *placed);
+double sp_most_flow(const sp_search *search, const sp_placed *placed);
 /* Turns adjustable nozzles down by the same share of what they have above their least, to a total of `water` (m³/s) if
  * that can be. The fields stay as they are. */
 void sp_turn_down(const sp_search *search, sp_partial *partial, double water);

@@ -29,7 +29,7 @@ static bool ask_rungs(sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     double outlay = front->best.outlay;
     if (!aims_at_target(front))
-        return sp_ask_other(refining, trials, outlay);
+        return sp_ask_other(refining, trials, outlay) && sp_ask_more(refining, trials);
     outlay *= front->measured.area >= front->target ? 1 : RUNG_FIRST;
     for (int i = 0; i < RUNGS; i++, outlay *= RUNG)
         if (!sp_ask_other(refining, trials, outlay))
@@ -98,7 +98,7 @@ static bool walk_closest(sp_refining *refining)
         done = sp_try_also(refining, &trials, &entry->partial, entry->point.outlay * (1 + LEEWAY), SP_TRIAL_WALK);
     }
     free(ranked);
-    done = done && sp_trials_carry_out(refining, &trials, NULL);
+    done = done && sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }
@@ -149,7 +149,7 @@ bool sp_refine_hurried(sp_refining *refining)
         sp_front_point before = front->measured;
         sp_trials trials = {0};
         bool done = ask_rungs(refining, &trials) && sp_find_others(refining, &trials) &&
-                    keep_promising(refining, &trials) && sp_trials_carry_out(refining, &trials, NULL);
+                    keep_promising(refining, &trials) && sp_trials_carry_out(refining, &trials);
         sp_trials_free(&trials);
         if (!done || (pass && !walk_closest(refining)) || !sharpen_closest(refining))
             return false;

@@ -17,17 +17,6 @@
 #define SHARP_ROUNDS 3    /* of the last local search */
 #define SHARP_SAVING 2e-3 /* less water, for another round */
 
-/* Every layout of the front once more. */
-static bool try_front(sp_refining *refining, sp_trials *trials)
-{
-    const sp_front *front = refining->front;
-    for (size_t i = 0; i < front->by_water.count; i++)
-        if (sp_front_counts(front, i) && !sp_try_also(refining, trials, &front->by_water.entries[i].partial,
-                                                      front->by_water.entries[i].point.outlay, SP_TRIAL_BY_TURNS))
-            return false;
-    return true;
-}
-
 static bool on_water_front(const sp_front *front, const sp_front_point *point)
 {
     for (size_t i = 0; i < front->by_water.count; i++)
@@ -79,28 +68,41 @@ static bool ask_savings(sp_refining *refining, sp_trials *trials)
     return true;
 }
 
-/* Drops the trials whose other layout covers no more than what they hold. */
+static bool is_better(const sp_trial *trial)
+{
+    return trial->other.covered > trial->partial.covered * (1 + SP_GAIN_LEAST);
+}
+
+/* Where the other layout covers no more than what a trial holds, that is tried: one of the two comes as far as both. */
+static void choose_others(sp_trials *trials)
+{
+    for (size_t i = 0; i < trials->count; i++)
+        if (!is_better(&trials->items[i]))
+            trials->items[i].kind = SP_TRIAL_BY_TURNS;
+}
+
+/* Drops the trials whose other layout covers no more than what they hold, which has been tried before. */
 static bool drop_others(sp_refining *refining, sp_trials *trials)
 {
     bool *kept = calloc(trials->count + 1, sizeof *kept);
     if (!kept)
         return sp_fail_memory(refining->error);
-    for (size_t i = 0; i < trials->count; i++) {
-        const sp_trial *trial = &trials->items[i];
-        kept[i] = trial->other.covered > trial->partial.covered * (1 + SP_GAIN_LEAST);
-    }
+    for (size_t i = 0; i < trials->count; i++)
+        kept[i] = is_better(&trials->items[i]);
     sp_trials_keep(trials, kept);
     free(kept);
     return true;
 }
 
-/* Every layout of the front, and others in their places and between. */
+/* Every layout of the front, or another in its place, and between. */
 static bool search_front_locally(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = ask_others(refining, &trials, true) && sp_find_others(refining, &trials) &&
-                try_front(refining, &trials) && try_fewest(refining, &trials) &&
-                sp_trials_carry_out(refining, &trials, NULL);
+    bool done =
+        ask_others(refining, &trials, true) && sp_ask_more(refining, &trials) && sp_find_others(refining, &trials);
+    if (done)
+        choose_others(&trials);
+    done = done && try_fewest(refining, &trials) && sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }
@@ -110,8 +112,8 @@ static bool recombine_front(sp_refining *refining)
 {
     sp_trials trials = {0};
     bool done = ask_others(refining, &trials, false) && ask_savings(refining, &trials) &&
-                sp_find_others(refining, &trials) && drop_others(refining, &trials) &&
-                sp_trials_carry_out(refining, &trials, NULL);
+                sp_ask_more(refining, &trials) && sp_find_others(refining, &trials) && drop_others(refining, &trials) &&
+                sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }
@@ -124,7 +126,7 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
     sp_trials trials = {0};
     if (!sp_deadline_goes_on(refining->deadline, "refine", 1))
         return true;
-    bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_BY_TURNS);
+    bool done = sp_try_also(refining, &trials, &front->best, sp_best_budget(refining), SP_TRIAL_BY_TURNS);
     for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];
         double budget = fmin(entry->point.outlay * (1 + LEEWAY), front->best.outlay);

@@ -4,8 +4,6 @@
 
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
-#define BATCH 8   /* walks from one layout at a time; fixed, so that the answer does not depend on the threads */
-#define BATCHES 2 /* before less water is given up */
 
 bool sp_save_flow(sp_refining *refining, const sp_partial *full)
 {
@@ -38,22 +36,18 @@ bool sp_save_flow(sp_refining *refining, const sp_partial *full)
     return done;
 }
 
-/* Anneals a layout and walks from it once, on two cores, then refines what more walks from it find, until the front
- * has one that takes less water than `before` and reaches the target, or it is given up. */
-static bool insist(sp_refining *refining, sp_partial *partial, double budget, const sp_front_point *before)
+/* Makes up for what a layout is missing, if that may be: anneals it, and walks from it on another core. */
+static bool make_up(sp_refining *refining, const sp_partial *partial, double budget)
 {
-    sp_front *front = refining->front;
-    bool done = true;
-    for (int batch = 0; done && batch <= BATCHES && sp_point_same(before, &front->measured); batch++) {
-        double missing = front->target - front->bias - partial->covered;
-        if (missing > MISSING_MOST * front->target || !sp_deadline_goes_on(refining->deadline, "refine", 0))
-            break;
-        sp_trials trials = {0};
-        for (size_t i = 0; done && i < (batch ? BATCH : 2); i++)
-            done = sp_try_also(refining, &trials, partial, budget, batch || i ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
-        done = done && sp_trials_carry_out(refining, &trials, partial);
-        sp_trials_free(&trials);
-    }
+    const sp_front *front = refining->front;
+    double missing = front->target - front->bias - partial->covered;
+    if (missing > MISSING_MOST * front->target || !sp_deadline_goes_on(refining->deadline, "refine", 0))
+        return true;
+    sp_trials trials = {0};
+    bool done = sp_try_also(refining, &trials, partial, budget, SP_TRIAL_ANNEAL) &&
+                sp_try_also(refining, &trials, partial, budget, SP_TRIAL_WALK) &&
+                sp_trials_carry_out(refining, &trials);
+    sp_trials_free(&trials);
     return done;
 }
 
@@ -73,7 +67,7 @@ static bool save_share(sp_refining *refining, sp_pool_gains *gains, double share
     if (!found)
         return true;
     bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
-                insist(refining, &reduced, budget, &before);
+                make_up(refining, &reduced, budget);
     sp_partial_free(&reduced);
     *saved = done && !sp_point_same(&before, &front->measured);
     return done;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank layouts wrongly */
+#define TURNS_UP 6      /* amounts of water above the front's, evenly by their logarithm */
 
 static void trial_free(sp_trial *trial)
 {
@@ -63,6 +64,31 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
     return sp_try_also(refining, trials, &front->by_water.entries[i].partial, outlay, SP_TRIAL_OTHER);
 }
 
+/* The outlay of the layout with all of its nozzles turned up as far as they can be, within what is allowed. */
+static double turned_up(const sp_search *search, const sp_partial *partial)
+{
+    double outlay = partial->outlay;
+    for (size_t i = 0; i < partial->count; i++)
+        outlay += sp_most_flow(search, &partial->items[i]) - partial->items[i].flow;
+    return fmin(outlay, search->outlay_most);
+}
+
+double sp_best_budget(const sp_refining *refining)
+{
+    const sp_front *front = refining->front;
+    bool wanting = front->objective == SP_OBJECTIVE_MAX_COVERAGE || front->measured.area < front->target;
+    return wanting ? turned_up(refining->search, &front->best) : front->best.outlay;
+}
+
+bool sp_ask_more(sp_refining *refining, sp_trials *trials)
+{
+    double outlay = refining->front->best.outlay, most = sp_best_budget(refining);
+    for (int i = 1; i <= TURNS_UP && most > outlay * (1 + SP_GAIN_LEAST); i++)
+        if (!sp_ask_other(refining, trials, outlay * pow(most / outlay, (double)i / TURNS_UP)))
+            return false;
+    return true;
+}
+
 bool sp_find_others(sp_refining *refining, sp_trials *trials)
 {
     const sp_tuned *tuned = &refining->local_search.tuned;
@@ -105,25 +131,16 @@ sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *
     return NULL;
 }
 
-bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *best)
+bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials)
 {
     const sp_search *search = refining->search;
     sp_front_point *points = NULL;
     bool done = sp_local_search_run(&refining->local_search, trials->items, trials->count, refining->error) &&
                 (points = sp_trials_measure_ahead(refining, trials, true));
     for (size_t i = 0; done && i < trials->count; i++) {
-        sp_partial *partial = &trials->items[i].partial;
-        if (!trials->items[i].better || !may_count(refining->front, partial))
-            continue;
-        done = sp_front_note(refining->front, search, partial, &points[i], refining->error);
-        if (done && best && sp_covers_more(search, partial, best)) {
-            sp_partial copy;
-            done = sp_partial_copy(search, partial, &copy, refining->error);
-            if (done) {
-                sp_partial_free(best);
-                *best = copy;
-            }
-        }
+        const sp_trial *trial = &trials->items[i];
+        if (trial->better && may_count(refining->front, &trial->partial))
+            done = sp_front_note(refining->front, search, &trial->partial, &points[i], refining->error);
     }
     free(points);
     return done;

@@ -56,7 +56,7 @@ static inline sp_proposal *job_place(job *j)
     room_check(proposal, &j->options);
     if (j->options.objective == SP_OBJECTIVE_MAX_COVERAGE)
         assert_true(proposal->coverage->covered_area >= proposal->greedy_coverage->covered_area);
-    else
+    else if (proposal->greedy_coverage->covered_area >= proposal->target_area)
         assert_true(proposal->coverage->flow <= proposal->greedy_coverage->flow);
     return proposal;
 }

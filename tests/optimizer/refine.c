@@ -96,6 +96,36 @@ static void flow_is_turned_down_while_the_target_holds(void **state)
     room_close(&j.room);
 }
 
+/* At the candidates' flow the rim falls dry, which wants 1.3 times as much. */
+static void flow_is_turned_up_for_what_is_asked(void **state)
+{
+    (void)state;
+    job j;
+    double rim = rim_flux(20 * LITRES_PER_MINUTE, 30 * DEGREE, 2), disc = M_PI * pow(2 * tan(30 * DEGREE), 2);
+    job_open(&j, 6, 0.05, 1.3 * rim);
+    j.type.flow_max = 1.5 * j.type.flow;
+    j.options.refine.flow = INFINITY;
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->greedy_coverage->covered_area < 0.9 * disc);
+    assert_true(proposal->coverage->covered_area > 0.97 * disc);
+    sp_proposal_destroy(proposal);
+
+    j.options.max_water = 1.15 * j.type.flow;
+    proposal = job_place(&j);
+    assert_true(proposal->coverage->flow > 1.1 * j.type.flow);
+    assert_true(proposal->coverage->covered_area > 1.05 * proposal->greedy_coverage->covered_area);
+    sp_proposal_destroy(proposal);
+
+    j.options.max_water = INFINITY;
+    j.options.objective = SP_OBJECTIVE_MIN_WATER;
+    j.options.coverage = 0.96 * disc / 36;
+    proposal = job_place(&j);
+    assert_true(proposal->reached);
+    assert_true(proposal->coverage->flow < 1.35 * j.type.flow);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 /* A fan's roll: the long side of a plank. */
 static void roll_follows_the_plank(void **state)
 {
@@ -201,6 +231,7 @@ int main(void)
         cmocka_unit_test(pose_moves_over_the_floor),
         cmocka_unit_test(a_cone_is_not_rolled),
         cmocka_unit_test(flow_is_turned_down_while_the_target_holds),
+        cmocka_unit_test(flow_is_turned_up_for_what_is_asked),
         cmocka_unit_test(roll_follows_the_plank),
         cmocka_unit_test(the_unit_of_length_does_not_matter),
     };
