@@ -9,8 +9,17 @@
 extern "C" {
 #endif
 
-/* A place as ruler and protractor give it from the datum: lengths to 1 mm, azimuths in deg to .1, or as much finer as
- * makes half a millimetre at that radius. All NAN where there is none. */
+/* Decimals of a sheet's numbers: of mm none, of degrees one, of bar and L/min two; more where the steps of its mounts
+ * and types need them for what can be set, and of lengths also on a small surface, as sp_place_decimals has it. What
+ * mm and deg are of is rounded to them, the rest is only told with them. */
+typedef struct {
+    int mm;                    /* all lengths */
+    int deg;                   /* tilt, towards and turn */
+    int angle_deg, bar, l_min; /* of sprays, pressures and flows; smaller flows as sp_told_decimals has it */
+} sp_fitting_decimals;
+
+/* A place as ruler and protractor give it from the datum: lengths to the sheet's decimals, azimuths in deg to .1, or as
+ * much finer as makes half of the last decimal of a length at that radius. All NAN where there is none. */
 typedef struct {
     double x_mm, y_mm;  /* along the datum's zero, and across it: along axis x zero */
     double height_mm;   /* along its axis */
@@ -27,12 +36,13 @@ typedef struct {
     double depth_mm;         /* in a port: from its position along its axis to the nozzle's */
     double standoff_mm;      /* on a surface: from the wall to the nozzle's position */
     sp_fitting_place at;     /* the port's position, or the weld: the wall's point nearest to the nozzle's position */
-    sp_fitting_place tip;    /* the nozzle's position */
-    /* Its axis, deg to .1: tilted by so much from straight down, which is against the datum's axis, towards this
-     * azimuth, which is 0 where the tilt is 0 or 180. */
+    sp_fitting_place tip;    /* the nozzle's position; in a port and on a surface where depth or standoff as they are
+                              * rounded bring it, so that the two places and what lies between them agree */
+    /* Its axis, deg: tilted by so much from straight down, which is against the datum's axis, towards this azimuth,
+     * which is 0 where the tilt is 0 or 180. */
     double tilt_deg, towards_deg;
     /* The x of its frame, along which a fan is wide, about its axis from the level line that points to azimuth
-     * towards + 90, clockwise seen along the axis; deg to .1, of fans [0, 180), else [0, 360). NAN where a pattern is
+     * towards + 90, clockwise seen along the axis; deg, of fans [0, 180), else [0, 360). NAN where a pattern is
      * the same at every turn. */
     double turn_deg;
     size_t circuit; /* index */
@@ -50,6 +60,7 @@ typedef struct {
     /* Two thirds, by area, of the walls that are to be cleaned and do not lie across the datum's axis turn about it, to
      * 10 deg of their normals: height, radius and azimuth say where things are, else x, y and height. */
     bool round;
+    sp_fitting_decimals decimals;
     size_t count;
     sp_fitting_row *rows; /* [count], in the layout's order; owned */
     size_t circuit_count;

@@ -97,8 +97,8 @@ static const sp_key nozzles_csv_keys[] = {
     {.name = NULL}};
 static const sp_block nozzles_csv = {
     "nozzles_csv", "columns of the sheet",
-    "What a fitter welds, sets and orders, rounded to what can be set; place, axis and angle of the spray are "
-    "layout.yaml's",
+    "What a fitter welds, sets and orders, rounded to 1 mm and 0.1 deg, or finer where a `step` or a small part needs "
+    "it; place, axis and angle of the spray are layout.yaml's",
     nozzles_csv_keys};
 
 static const sp_key swabs_keys[] = {

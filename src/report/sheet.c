@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define DIRECTION_DECIMALS 4
+#define ORIGIN_DECIMALS 4 /* in m, one more than those of whole mm */
+
 sp_fitting_sheet **sp_fitting_sheets_of(const sp_result *result, sp_error *error)
 {
     sp_fitting_sheet **sheets = calloc(result->design_count + 1, sizeof(sp_fitting_sheet *));
@@ -76,13 +79,14 @@ static void add_azimuth(sp_text *text, double degrees)
 
 static void add_place(sp_text *text, const sp_fitting_sheet *sheet, const sp_fitting_place *place)
 {
+    int mm = sheet->decimals.mm;
     if (!sheet->round) {
-        add_number(text, place->x_mm, 0);
-        add_number(text, place->y_mm, 0);
+        add_number(text, place->x_mm, mm);
+        add_number(text, place->y_mm, mm);
     }
-    add_number(text, place->height_mm, 0);
+    add_number(text, place->height_mm, mm);
     if (sheet->round) {
-        add_number(text, place->radius_mm, 0);
+        add_number(text, place->radius_mm, mm);
         add_azimuth(text, place->azimuth_deg);
     }
 }
@@ -137,6 +141,7 @@ static void add_places_head(sp_text *text, bool round, bool turns)
 static void add_places(const sp_page *page, sp_text *text, size_t design, const sp_fitting_sheet *sheet)
 {
     bool turns = any_turns(sheet);
+    const sp_fitting_decimals *decimals = &sheet->decimals;
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
     sp_page_name(page, text, design);
     sp_text_add(text, ": where to drill, weld and point</caption>\n");
@@ -148,12 +153,12 @@ static void add_places(const sp_page *page, sp_text *text, size_t design, const 
         add_text(text, "th scope=\"row\"", row->nozzle->name);
         add_fitting(text, row);
         add_place(text, sheet, &row->at);
-        add_number(text, isfinite(row->depth_mm) ? row->depth_mm : row->standoff_mm, 0);
+        add_number(text, isfinite(row->depth_mm) ? row->depth_mm : row->standoff_mm, decimals->mm);
         add_place(text, sheet, &row->tip);
-        add_number(text, row->tilt_deg, 1);
-        add_number(text, row->towards_deg, 1);
+        add_number(text, row->tilt_deg, decimals->deg);
+        add_number(text, row->towards_deg, decimals->deg);
         if (turns)
-            add_number(text, row->turn_deg, 1);
+            add_number(text, row->turn_deg, decimals->deg);
         sp_text_add(text, "</tr>\n");
     }
     sp_text_add(text, "</tbody></table></div>\n");
@@ -189,6 +194,16 @@ static bool is_told(const sp_fitting_sheet *sheet, size_t source)
     return any;
 }
 
+static void add_pressure(sp_text *text, const sp_fitting_sheet *sheet, double pressure)
+{
+    add_number(text, pressure / 1e5, sheet->decimals.bar);
+}
+
+static void add_flow(sp_text *text, const sp_fitting_sheet *sheet, double flow)
+{
+    add_number(text, flow * 6e4, sp_told_decimals(flow * 6e4, sheet->decimals.l_min, 3));
+}
+
 static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fitting_row *row)
 {
     const sp_nozzle *nozzle = row->nozzle;
@@ -198,9 +213,9 @@ static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
     for (size_t i = 0; i < SOURCES; ++i)
         if (is_told(sheet, i))
             add_text(text, "td class=\"text\"", sources[i].of(nozzle->type));
-    add_number(text, sp_nozzle_angle(nozzle) * 180 / M_PI, 1);
-    add_number(text, nozzle->pressure / 1e5, 2);
-    add_number(text, sp_nozzle_flow(nozzle, &sheet->setup->liquid) * 6e4, 2);
+    add_number(text, sp_nozzle_angle(nozzle) * 180 / M_PI, sheet->decimals.angle_deg);
+    add_pressure(text, sheet, nozzle->pressure);
+    add_flow(text, sheet, sp_nozzle_flow(nozzle, &sheet->setup->liquid));
     sp_text_add(text, "<td>%zu</td></tr>\n", row->circuit + 1);
 }
 
@@ -235,19 +250,19 @@ static void add_circuits(sp_text *text, const sp_fitting_sheet *sheet)
     for (size_t i = 0; i < sheet->circuit_count; ++i) {
         const sp_circuit *circuit = &sheet->circuits[i];
         sp_text_add(text, "<tr><th scope=\"row\">%zu</th><td>%zu</td>", i + 1, circuit->nozzles);
-        add_number(text, circuit->pressure / 1e5, 2);
-        add_number(text, circuit->flow * 6e4, 2);
+        add_pressure(text, sheet, circuit->pressure);
+        add_flow(text, sheet, circuit->flow);
         sp_text_add(text, "</tr>\n");
     }
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
-static void add_vector(sp_text *text, sp_vec3 v)
+static void add_vector(sp_text *text, sp_vec3 v, int decimals)
 {
-    const double values[] = {v.x, v.y, v.z};
+    const double values[] = {v.x, v.y, v.z}, parts = pow(10, decimals);
     for (int i = 0; i < 3; ++i) {
         sp_text_add(text, i ? ", " : "(");
-        sp_text_number(text, nearbyint(values[i] * 1e4) / 1e4 + 0.0);
+        sp_text_number(text, nearbyint(values[i] * parts) / parts + 0.0);
     }
     sp_text_add(text, ")");
 }
@@ -261,7 +276,7 @@ static void add_direction(sp_text *text, sp_vec3 v)
             sp_text_add(text, "%s%c", values[i] < 0 ? "&minus;" : "", 'x' + i);
             return;
         }
-    add_vector(text, v);
+    add_vector(text, v, DIRECTION_DECIMALS);
 }
 
 /* On the screen what is the same of all sheets stands in the first alone. */
@@ -270,8 +285,9 @@ static const char *manner(const sp_page *page, size_t design)
     return page->main == SP_UNKNOWN || design == page->main ? "" : " again";
 }
 
-static void add_datum(sp_text *text, const sp_datum *datum, bool round, const char *classes)
+static void add_datum(sp_text *text, const sp_fitting_sheet *sheet, const char *classes)
 {
+    const sp_datum *datum = &sheet->setup->datum;
     char *name = sp_text_utf8(datum->name[0] ? datum->name : "the geometry's own axes");
     text->failed |= !name;
     sp_text_add(text, "<p class=\"datum%s\">Measured from ", classes);
@@ -280,11 +296,11 @@ static void add_datum(sp_text *text, const sp_datum *datum, bool round, const ch
     sp_text_add(text, ": heights along ");
     add_direction(text, datum->axis);
     sp_text_add(text, " from ");
-    add_vector(text, datum->origin);
+    add_vector(text, datum->origin, ORIGIN_DECIMALS + sheet->decimals.mm);
     sp_text_add(text, "&nbsp;m, azimuths anticlockwise, seen against that axis, from ");
     add_direction(text, datum->zero);
     sp_text_add(text, ", in the geometry&#39;s coordinates%s.</p>\n",
-                round ? "" : "; x lies along azimuth 0 and y along azimuth 90");
+                sheet->round ? "" : "; x lies along azimuth 0 and y along azimuth 90");
 }
 
 static void add_note(sp_text *text, bool turns, const char *classes)
@@ -354,7 +370,7 @@ static void add_sheet(const sp_page *page, sp_text *text, sp_fitting_sheet *cons
         sp_page_narrow_name(page, text, design);
     }
     sp_text_add(text, "</h2>\n");
-    add_datum(text, &sheet->setup->datum, sheet->round, classes);
+    add_datum(text, sheet, classes);
     add_places(page, text, design, sheet);
     add_orders(text, sheet);
     add_circuits(text, sheet);

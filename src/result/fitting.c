@@ -2,6 +2,7 @@
 #include <sprayplan/fitting.h>
 
 #include "allowed.h"
+#include "fitting_decimals.h"
 #include "mesh/distance.h"
 #include "mounts/mount_geometry.h"
 #include "nozzle/pattern.h"
@@ -11,22 +12,24 @@
 
 #define MM 1e3               /* per m */
 #define DEG (180 / M_PI)     /* per rad */
-#define TENTHS 10            /* of a degree */
-#define OFF_MOST 5e-4        /* m, that an azimuth's rounding may move a place by */
+#define OFF_MOST 0.5         /* of a length's last decimal, that an azimuth's rounding may move a place by */
+#define ROUND_OFF 1e-6       /* of the last decimal, by which what was computed may lie below what it stands for */
 #define SAME_PRESSURE 1e-9   /* share by which pressures of one circuit may differ */
 #define ROUND_NORMAL 0.17365 /* sine of 10 deg */
 #define ROUND_SHARE (2. / 3)
 
-static double rounded(double value, double parts)
+/* Halves upwards, of negative numbers as well: lengths that differ by a number of these decimals do so when rounded. */
+static double rounded(double value, int decimals)
 {
-    return nearbyint(value * parts) / parts + 0.0; /* no -0 */
+    double parts = pow(10, decimals);
+    return floor(value * parts + 0.5 + ROUND_OFF) / parts;
 }
 
 /* deg in [0, whole). */
-static double rounded_turn(double angle, double parts, double whole)
+static double rounded_turn(double angle, int decimals, double whole)
 {
-    double turn = fmod(rounded(angle * DEG, parts), whole);
-    return rounded(turn < 0 ? turn + whole : turn, parts);
+    double turn = fmod(rounded(angle * DEG, decimals), whole);
+    return rounded(turn < 0 ? turn + whole : turn, decimals);
 }
 
 static sp_vec3 across(const sp_datum *datum)
@@ -34,60 +37,82 @@ static sp_vec3 across(const sp_datum *datum)
     return sp_cross(datum->axis, datum->zero);
 }
 
-static sp_fitting_place place_at(const sp_setup *setup, sp_vec3 point)
+static sp_fitting_place place_at(const sp_fitting_sheet *sheet, sp_vec3 point)
 {
-    const sp_datum *datum = &setup->datum;
-    sp_vec3 from = sp_sub(sp_setup_outside(setup, point), datum->origin);
-    double x = sp_dot(from, datum->zero), y = sp_dot(from, across(datum)), radius = hypot(x, y), parts = TENTHS;
-    while (radius / (2 * parts * DEG) > OFF_MOST)
-        parts *= 10;
-    sp_fitting_place place = {.x_mm = rounded(x * MM, 1),
-                              .y_mm = rounded(y * MM, 1),
-                              .height_mm = rounded(sp_dot(from, datum->axis) * MM, 1),
-                              .radius_mm = rounded(radius * MM, 1)};
-    place.azimuth_deg = place.radius_mm > 0 ? rounded_turn(atan2(y, x), parts, 360) : 0;
+    const sp_datum *datum = &sheet->setup->datum;
+    sp_vec3 from = sp_sub(sp_setup_outside(sheet->setup, point), datum->origin);
+    double x = sp_dot(from, datum->zero), y = sp_dot(from, across(datum)), radius = hypot(x, y);
+    int mm = sheet->decimals.mm, deg = 1;
+    while (radius * MM * pow(10, mm) / (2 * pow(10, deg) * DEG) > OFF_MOST)
+        deg++;
+    sp_fitting_place place = {.x_mm = rounded(x * MM, mm),
+                              .y_mm = rounded(y * MM, mm),
+                              .height_mm = rounded(sp_dot(from, datum->axis) * MM, mm),
+                              .radius_mm = rounded(radius * MM, mm)};
+    place.azimuth_deg = place.radius_mm > 0 ? rounded_turn(atan2(y, x), deg, 360) : 0;
     return place;
 }
 
-static void add_fitting(sp_fitting_row *row, const sp_setup *setup)
+/* In a port; returns where the tip comes to lie with that depth. */
+static sp_vec3 set_lance(sp_fitting_row *row, const sp_fitting_sheet *sheet)
+{
+    const sp_mount *port = row->mount;
+    sp_vec3 tip = row->nozzle->position;
+    double depth = sp_dot(sp_sub(tip, port->position), port->axis);
+    row->depth_mm = rounded(depth * MM, sheet->decimals.mm);
+    row->at = place_at(sheet, port->position);
+    return sp_along(tip, row->depth_mm / MM - depth, port->axis);
+}
+
+/* The same on a surface, with that standoff. */
+static sp_vec3 set_weld(sp_fitting_row *row, const sp_fitting_sheet *sheet)
+{
+    const sp_mesh *mesh = sheet->setup->mesh;
+    sp_vec3 tip = row->nozzle->position;
+    uint32_t triangle = sp_mount_weld(sheet->setup, row->mount, row->nozzle);
+    sp_vec3 weld = sp_triangle_nearest(mesh, triangle, tip);
+    double standoff = sp_distance(weld, tip);
+    row->part = mesh->parts[mesh->part[triangle]].name;
+    row->standoff_mm = rounded(standoff * MM, sheet->decimals.mm);
+    row->at = place_at(sheet, weld);
+    return standoff > 0 ? sp_along(weld, row->standoff_mm / MM / standoff, sp_sub(tip, weld)) : tip;
+}
+
+static void add_fitting(sp_fitting_row *row, const sp_fitting_sheet *sheet)
 {
     const sp_mount *mount = row->mount;
     sp_vec3 tip = row->nozzle->position;
-    if (mount && mount->kind == SP_MOUNT_PORT) {
-        row->depth_mm = rounded(sp_dot(sp_sub(tip, mount->position), mount->axis) * MM, 1);
-        row->at = place_at(setup, mount->position);
-    } else if (mount && mount->kind == SP_MOUNT_SURFACE) {
-        uint32_t triangle = sp_mount_weld(setup, mount, row->nozzle);
-        sp_vec3 weld = sp_triangle_nearest(setup->mesh, triangle, tip);
-        row->part = setup->mesh->parts[setup->mesh->part[triangle]].name;
-        row->standoff_mm = rounded(sp_distance(weld, tip) * MM, 1);
-        row->at = place_at(setup, weld);
-    }
+    if (mount && mount->kind == SP_MOUNT_PORT)
+        tip = set_lance(row, sheet);
+    else if (mount && mount->kind == SP_MOUNT_SURFACE)
+        tip = set_weld(row, sheet);
+    row->tip = place_at(sheet, tip);
     row->fitting = mount && mount->name[0] ? mount->name : row->part;
 }
 
 /* Counted from the axis as it is written, so that who draws it from that draws the same. */
-static double turn_of(const sp_setup *setup, const sp_nozzle *nozzle, double towards)
+static double turn_of(const sp_fitting_sheet *sheet, const sp_nozzle *nozzle, double towards)
 {
-    const sp_datum *datum = &setup->datum;
+    const sp_datum *datum = &sheet->setup->datum;
     double period = sp_type_roll_period(nozzle->type);
     if (period == 0)
         return NAN;
     sp_vec3 level = sp_sub(sp_scale(across(datum), cos(towards)), sp_scale(datum->zero, sin(towards)));
-    sp_vec3 x = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up).x;
+    sp_vec3 x = sp_nozzle_frame(nozzle->axis, nozzle->roll, sheet->setup->up).x;
     double turn = atan2(sp_dot(x, sp_cross(nozzle->axis, level)), sp_dot(x, level));
-    return rounded_turn(turn, TENTHS, rounded(period * DEG, 1));
+    return rounded_turn(turn, sheet->decimals.deg, rounded(period * DEG, 0));
 }
 
-static void add_axis(sp_fitting_row *row, const sp_setup *setup)
+static void add_axis(sp_fitting_row *row, const sp_fitting_sheet *sheet)
 {
-    const sp_datum *datum = &setup->datum;
+    const sp_datum *datum = &sheet->setup->datum;
+    int deg = sheet->decimals.deg;
     sp_vec3 axis = row->nozzle->axis;
     double x = sp_dot(axis, datum->zero), y = sp_dot(axis, across(datum)), down = -sp_dot(axis, datum->axis);
-    row->tilt_deg = rounded(atan2(hypot(x, y), down) * DEG, TENTHS);
+    row->tilt_deg = rounded(atan2(hypot(x, y), down) * DEG, deg);
     bool leans = row->tilt_deg > 0 && row->tilt_deg < 180;
-    row->towards_deg = leans ? rounded_turn(atan2(y, x), TENTHS, 360) : 0;
-    row->turn_deg = turn_of(setup, row->nozzle, row->towards_deg / DEG);
+    row->towards_deg = leans ? rounded_turn(atan2(y, x), deg, 360) : 0;
+    row->turn_deg = turn_of(sheet, row->nozzle, row->towards_deg / DEG);
 }
 
 /* Where it belongs among the circuits, by rising pressure; one more where there is none yet. */
@@ -140,6 +165,7 @@ sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setu
     if (!sheet)
         return sp_fail_memory(error);
     *sheet = (sp_fitting_sheet){.setup = setup,
+                                .decimals = sp_fitting_decimals_of(layout, setup, mounts, mount_count),
                                 .count = layout->count,
                                 .rows = calloc(layout->count + 1, sizeof *sheet->rows),
                                 .circuits = calloc(layout->count + 1, sizeof *sheet->circuits)};
@@ -155,10 +181,9 @@ sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setu
                                           .part = "",
                                           .depth_mm = NAN,
                                           .standoff_mm = NAN,
-                                          .at = nowhere,
-                                          .tip = place_at(setup, nozzle->position)};
-        add_fitting(&sheet->rows[i], setup);
-        add_axis(&sheet->rows[i], setup);
+                                          .at = nowhere};
+        add_fitting(&sheet->rows[i], sheet);
+        add_axis(&sheet->rows[i], sheet);
         join_circuit(sheet, nozzle);
     }
     number_circuits(sheet);

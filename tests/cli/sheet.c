@@ -56,6 +56,21 @@ static const char mounted_room[] =
     "    - surface: {geometry: 0, part: walls, spacing: 500 mm, standoff: 50 mm}\n"
     "%s";
 
+static const char fine_room[] =
+    "geometry:\n"
+    "  - file: room.obj\n"
+    "criterion: {flux: 1 L/min/m2}\n"
+    "catalogue: catalogue.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: cone, position: [0.3 m, 0.3 m, 0.8975 m], axis: [0, 0.378649, -0.925540], pressure: 2 bar}\n"
+    "simulate: {texel: 200 mm}\n"
+    "place:\n"
+    "  max_nozzles: 1\n"
+    "  pressure: 2 bar\n"
+    "  mounts:\n"
+    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: "
+    "200 mm}, step: {depth: 2.5 mm, tilt: 0.25 deg}}\n";
+
 static void write_mounted(const char *name, const char *keep, const char *alternatives)
 {
     char scene[sizeof mounted_room + 200];
@@ -139,6 +154,21 @@ static void the_page_has_the_sheet(void **state)
         if (!strstr(section, told[i]))
             fail_msg("no %s in %s", told[i], section);
     free(page);
+}
+
+/* What can be set to 2.5 mm and 0.25 deg is told so, in the page as in the table. */
+static void the_page_tells_settings(void **state)
+{
+    (void)state;
+    write_file("fine.yaml", fine_room);
+    ensure("fine", "simulate fine.yaml");
+    char *page = read_file("fine/report.html", NULL), *rows = read_file("fine/nozzles.csv", NULL);
+    assert_non_null(strstr(page,
+                           "<td class=\"text\">port P1</td><td>300.0</td><td>300.0</td><td>1000.0</td>"
+                           "<td>102.5</td><td>300.0</td><td>300.0</td><td>897.5</td><td>22.25</td><td>90.00</td>"));
+    assert_non_null(strstr(rows, ",port,P1,102.5,,300,300,1000,424.3,45,300,300,897.5,424.3,45,22.25,90,"));
+    free(page);
+    free(rows);
 }
 
 static void the_sheet_calls_mounts_by_their_names(void **state)
@@ -228,7 +258,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_placed_is_what_can_be_set),     cmocka_unit_test(the_page_has_the_sheet),
         cmocka_unit_test(the_sheet_calls_mounts_by_their_names), cmocka_unit_test(what_is_kept_is_not_called_new),
-        cmocka_unit_test(what_does_not_pass_is_refused),
+        cmocka_unit_test(what_does_not_pass_is_refused),         cmocka_unit_test(the_page_tells_settings),
     };
     return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
 }
