@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 80, START = HEADER + 4, RECORD = 50 };
+enum { HEADER = 80, START = HEADER + 4, RECORD = 50, POINT = 12 };
 
 typedef struct {
     sp_scanner scanner;
@@ -49,11 +49,22 @@ static bool add_triangle(const char *path, sp_soup *soup, const sp_vec3 corners[
     return sp_soup_add_triangle(soup, numbers[0], numbers[1], numbers[2], part, error);
 }
 
+/* Three words that are not looked at: the order of the corners says the same, and programs write "nan" for the normal
+ * of a triangle without area. */
+static bool skip_normal(reader *r)
+{
+    sp_token token;
+    for (int k = 0; k < 3; k++)
+        if (!sp_scan_any_token(&r->scanner, &token))
+            return sp_scanner_ended(&r->scanner, "a number", r->error);
+    return true;
+}
+
 /* From behind "facet". */
 static bool read_facet(reader *r)
 {
-    sp_vec3 normal, corners[3];
-    if (!expect(r, "normal") || !read_point(r, &normal) || !expect(r, "outer") || !expect(r, "loop"))
+    sp_vec3 corners[3];
+    if (!expect(r, "normal") || !skip_normal(r) || !expect(r, "outer") || !expect(r, "loop"))
         return false;
     for (int k = 0; k < 3; k++) {
         if (!expect(r, "vertex") || !read_point(r, &corners[k]))
@@ -131,18 +142,16 @@ static bool read_binary(const char *path, const unsigned char *bytes, size_t siz
     if (part == SP_NONE || !sp_soup_reserve(soup, count / 2 + count / 64 + 256, count, error))
         return false;
     for (uint64_t i = 0; i < count; i++) {
-        const unsigned char *record = bytes + START + RECORD * i;
-        sp_vec3 points[4]; /* the normal, then the corners */
-        for (int k = 0; k < 4; k++, record += 12) {
-            points[k] = sp_v(read_float(record), read_float(record + 4), read_float(record + 8));
-            if (k > 0)
-                points[k] = sp_scale(points[k], unit);
-            if (!sp_coordinates_allowed(points[k]))
+        const unsigned char *at = bytes + START + RECORD * i + POINT; /* behind the normal */
+        sp_vec3 corners[3];
+        for (int k = 0; k < 3; k++, at += POINT) {
+            corners[k] = sp_scale(sp_v(read_float(at), read_float(at + 4), read_float(at + 8)), unit);
+            if (!sp_coordinates_allowed(corners[k]))
                 return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
-                               "found in triangle %llu of %llu a number that is not finite or beyond 1e30 m",
+                               "found in triangle %llu of %llu a coordinate that is not finite or beyond 1e30 m",
                                (unsigned long long)(i + 1), (unsigned long long)count);
         }
-        if (!add_triangle(path, soup, points + 1, part, error))
+        if (!add_triangle(path, soup, corners, part, error))
             return false;
     }
     return true;

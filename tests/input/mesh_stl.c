@@ -32,7 +32,9 @@ static void bad_text_is_refused_at_its_line(void **state)
         {"solid a\n" ONE "endsolid\nfacet\n", 10, "'facet'"},
         {"solid a\nfacets\n", 2, "'facets'"},
         {"solid a\nfacet 0 0 1\n", 2, "'0'"},
-        {"solid a\nfacet normal 0 0 nan\n", 2, "'nan'"},
+        {"solid a\nfacet normal 0 0\n", 3, "the end of the file"},
+        {"solid a\nfacet normal 0 0\nouter loop\n", 3, "'loop', expected outer"},
+        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n", 4, "'nan'"},
         {"solid a\nfacet normal 0 0 1\nouter lop\n", 3, "'lop'"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0\n", 5, "'vertex'"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 1e99\n", 6, "1e30"},
@@ -116,7 +118,8 @@ static void binary_of_the_wrong_size_is_refused(void **state)
     }
 }
 
-static void binary_numbers_are_checked(void **state)
+/* The corners of a triangle; its normal may be anything. */
+static void binary_coordinates_are_checked(void **state)
 {
     (void)state;
     static const float wrong[] = {NAN, INFINITY, -INFINITY, 1e31f};
@@ -126,9 +129,30 @@ static void binary_numbers_are_checked(void **state)
             sp_error error = {0};
             make_binary(bytes, "", 0);
             put_float(bytes + START + RECORD + 4 * k, wrong[i]);
-            assert_null(read_bytes(".stl", bytes, SIZE, &error));
-            assert_non_null(strstr(error.message, "triangle 2 of 2"));
+            sp_mesh *mesh = read_bytes(".stl", bytes, SIZE, &error);
+            assert_true((mesh != NULL) == (k < 3));
+            if (!mesh)
+                assert_non_null(strstr(error.message, "found in triangle 2 of 2 a coordinate that is not finite"));
+            sp_mesh_destroy(mesh);
         }
+}
+
+/* Whatever the normals say, nothing at all included. */
+static void the_order_of_corners_decides(void **state)
+{
+    (void)state;
+    static const char *const normals[] = {"0 0 1", "0 0 -1", "nan nan nan", "-nan(ind) inf -inf", "-1.#IND 1e999 0"};
+    for (size_t i = 0; i < sizeof normals / sizeof *normals; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "solid\nfacet normal %s\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+                 "endsolid\n",
+                 normals[i]);
+        sp_mesh *mesh = read_good(".stl", text);
+        assert_int_equal(mesh->triangle_count, 1);
+        assert_true(sp_triangle_normal(mesh, 0).z == 1);
+        sp_mesh_destroy(mesh);
+    }
 }
 
 static void text_truncated_at_every_length(void **state)
@@ -151,7 +175,8 @@ int main(void)
         cmocka_unit_test(bad_text_is_refused_at_its_line),
         cmocka_unit_test(binary_is_read_even_where_it_begins_with_solid),
         cmocka_unit_test(binary_of_the_wrong_size_is_refused),
-        cmocka_unit_test(binary_numbers_are_checked),
+        cmocka_unit_test(binary_coordinates_are_checked),
+        cmocka_unit_test(the_order_of_corners_decides),
         cmocka_unit_test(text_truncated_at_every_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
