@@ -129,14 +129,37 @@ static double read_float(const unsigned char *at)
     return number;
 }
 
+/* What follows the header says how many triangles there are. */
+static bool is_whole_binary(const unsigned char *bytes, size_t size)
+{
+    return size >= START && size == START + RECORD * (uint64_t)read_word(bytes + HEADER);
+}
+
+/* Text has none; a binary file that has none has more than 16 million triangles. */
+static bool has_zero_in_head(const unsigned char *bytes, size_t size)
+{
+    return memchr(bytes, '\0', size < START ? size : START) != NULL;
+}
+
+static bool refuse_size(const char *path, const unsigned char *bytes, size_t size, sp_error *error)
+{
+    uint64_t count = size >= START ? read_word(bytes + HEADER) : 0;
+    if (!has_zero_in_head(bytes, size))
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                       "found no STL, expected text that begins with \"solid\", or %d bytes of binary STL and %d more "
+                       "for each triangle",
+                       START, RECORD);
+    return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                   "found %zu bytes of binary STL, expected %llu for its %llu triangles", size,
+                   (unsigned long long)(START + RECORD * count), (unsigned long long)count);
+}
+
 static bool read_binary(const char *path, const unsigned char *bytes, size_t size, double unit, sp_soup *soup,
                         sp_error *error)
 {
-    uint64_t count = size >= START ? read_word(bytes + HEADER) : 0;
-    if (size < START || size != START + RECORD * count)
-        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
-                       "found %zu bytes of binary STL, expected %llu for its %llu triangles", size,
-                       (unsigned long long)(START + RECORD * count), (unsigned long long)count);
+    if (!is_whole_binary(bytes, size))
+        return refuse_size(path, bytes, size, error);
+    uint64_t count = read_word(bytes + HEADER);
     uint32_t part = sp_soup_part(soup, "default", error);
     /* A closed surface has half as many vertices as triangles. */
     if (part == SP_NONE || !sp_soup_reserve(soup, count / 2 + count / 64 + 256, count, error))
@@ -160,9 +183,7 @@ static bool read_binary(const char *path, const unsigned char *bytes, size_t siz
 /* Text begins with "solid"; so do many binary files, but then their size fits, or there are zero bytes. */
 static bool is_text(const unsigned char *bytes, size_t size)
 {
-    if (size >= START && size == START + RECORD * (uint64_t)read_word(bytes + HEADER))
-        return false;
-    if (memchr(bytes, '\0', size < START ? size : START))
+    if (is_whole_binary(bytes, size) || has_zero_in_head(bytes, size))
         return false;
     size_t at = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
     while (at < size && isspace(bytes[at]))
@@ -177,7 +198,7 @@ static bool is_text(const unsigned char *bytes, size_t size)
 bool sp_stl_is(const char *text, size_t size)
 {
     const unsigned char *bytes = (const unsigned char *)text;
-    return is_text(bytes, size) || (size >= START && size == START + RECORD * (uint64_t)read_word(bytes + HEADER));
+    return is_text(bytes, size) || is_whole_binary(bytes, size);
 }
 
 bool sp_stl_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)

@@ -44,6 +44,9 @@ static void bad_text_is_refused_at_its_line(void **state)
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0x1\n", 6, "'0x1'"},
         {"not an stl file at all", 0, "bytes of binary STL"},
         {"", 0, "bytes of binary STL"},
+        {"# a mesh of another kind under this name, longer than the head of a binary file\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+         "f 1 2 3\n",
+         0, "found no STL, expected text that begins with \"solid\", or 84 bytes of binary STL and 50 more for each"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         read_bad(".stl", cases[i].text, cases[i].line, cases[i].what);
