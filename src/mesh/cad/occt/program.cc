@@ -2,6 +2,7 @@
  * says. A program of its own, since OpenCASCADE may crash, hang or eat all memory on a bad file. */
 #include "mesh/cad/records.h"
 
+#include "iges_lengths.h"
 #include "length_unit.h"
 #include "revolved.h"
 #include "soundness.h"
@@ -18,6 +19,7 @@
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <IGESControl_Reader.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
@@ -511,6 +513,8 @@ void read_iges(const char *file, Model &model, const Message_ProgressRange &rang
     IGESControl_Reader reader;
     if (reader.ReadFile(file) != IFSelect_RetDone)
         throw std::runtime_error("found no IGES file, or one that is damaged");
+    for (const std::string &doubt : sp_cad_doubtful_lengths(reader.IGESModel()->GlobalSection()))
+        model.add_fault(doubt);
     reader.TransferRoots(range);
     model.add_faults(reader.WS());
     model.add(reader.OneShape(), TopLoc_Location(), std::string(2, '\0'));
