@@ -20,7 +20,7 @@ typedef enum {
 /* x(t) = origin + velocity t + gravity t²/2 for t_min < t < t_max. */
 typedef struct {
     sp_vec3 origin;   /* m */
-    sp_vec3 velocity; /* m/s, any length but 0 */
+    sp_vec3 velocity; /* m/s, any length, but 0 only with gravity */
     double t_min;     /* s, usually 0 */
     double t_max;     /* s, INFINITY for no end */
     uint32_t skip;    /* a triangle never hit (the one that the ray leaves or aims at), or SP_NONE */

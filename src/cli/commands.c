@@ -49,9 +49,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_TRACE] =
         {"trace", "MESH", "nearest hits of given lines or parabolas, as CSV",
          "Prints, for every ray of a file, the triangle that it hits first, where, when, how fast and at what "
-         "angle, in m and m/s; nothing but its number for a ray that hits none. Rays and triangles are numbered from 0 "
-         "as in "
-         "their files.",
+         "angle, in m and m/s; nothing but its number, with --json null, for a ray that hits none. Rays and triangles "
+         "are numbered from 0 as in their files.",
          "sprayplan trace vessel.obj --rays rays.csv --unit mm --gravity 0,0,-9.81", 1, 1},
     [CLI_BENCH] = {"bench", "MESH", "build, trace and atlas timings of every accelerator on a mesh",
                    "Traces the same rays with every accelerator in turn and prints what building and tracing took.",
@@ -108,7 +107,8 @@ const cli_option cli_options_known[] = {
     {CLI_RAYS, 0, "rays", "FILE", OF(CLI_TRACE),
      "The rays, needed: lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment."},
     {CLI_RAYS, 0, "rays", "N", OF(CLI_BENCH), "How many rays a mode has (default 262144)."},
-    {CLI_GRAVITY, 0, "gravity", "GX,GY,GZ", OF(CLI_TRACE), "m/s2: makes the rays parabolas. Default: lines."},
+    {CLI_GRAVITY, 0, "gravity", "GX,GY,GZ", OF(CLI_TRACE),
+     "m/s2: makes the rays parabolas, and lets a velocity of 0 be a drop that is let go. Default: lines."},
     {CLI_ACCEL, 0, "accel", "WHICH", OF(CLI_TRACE), "The accelerator: bvh (default), sah, naive or none."},
     {CLI_MODE, 0, "mode", "MODE", OF(CLI_BENCH), "cone, grid, incoherent or surface. Default: all."},
     {CLI_TRAJECTORY, 0, "trajectory", "WHICH", OF(CLI_BENCH), "line or parabola. Default: both."},

@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "../scene/slips.h"
+#include "rays.h"
 #include "topics.h"
 
 #include <errno.h>
@@ -92,13 +93,18 @@ static bool parse_packing(const char *text, sp_packing *packing)
     return true;
 }
 
+static bool read_component(const char **text, double *component)
+{
+    return read_number(text, component) && fabs(*component) <= CLI_RAYS_LARGEST;
+}
+
 static bool parse_gravity(const char *text, sp_vec3 *gravity)
 {
     const char *rest = text;
-    if (read_number(&rest, &gravity->x) && *rest++ == ',' && read_number(&rest, &gravity->y) && *rest++ == ',' &&
-        read_number(&rest, &gravity->z) && !*rest)
+    if (read_component(&rest, &gravity->x) && *rest++ == ',' && read_component(&rest, &gravity->y) && *rest++ == ',' &&
+        read_component(&rest, &gravity->z) && !*rest)
         return true;
-    return wrong("--gravity", text, "gx,gy,gz in m/s2");
+    return wrong("--gravity", text, "gx,gy,gz in m/s2, up to 1e30 each");
 }
 
 static bool parse_accelerator(const char *text, sp_accelerator *accelerator)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LARGEST 1e30 /* m, m/s: as of a mesh, whose box no ray need be further from */
+#define LEAST 1e-150 /* m/s, m/s2: squares are numbers still */
 
 static const char *skip_blanks(const char *text)
 {
@@ -26,7 +26,7 @@ static bool parse_ray(const cli_rays *reader, const char *at, sp_ray *ray, sp_er
         char *end;
         at = skip_blanks(at);
         number[i] = strtod(at, &end);
-        if (end == at || !(fabs(number[i]) <= LARGEST))
+        if (end == at || !(fabs(number[i]) <= CLI_RAYS_LARGEST))
             return fail_at(reader, at, "found \"%.40s\", expected a number up to 1e30 (ox,oy,oz,vx,vy,vz)", error);
         at = skip_blanks(end);
         if (i < 5 && *at++ != ',')
@@ -39,8 +39,10 @@ static bool parse_ray(const cli_rays *reader, const char *at, sp_ray *ray, sp_er
                     .velocity = sp_v(number[3], number[4], number[5]),
                     .t_max = INFINITY,
                     .skip = SP_NONE};
-    return sp_length(ray->velocity) > 0 ||
-           fail_at(reader, reader->text, "found a velocity of 0 in \"%.40s\", expected any other", error);
+    return sp_length(ray->velocity) >= LEAST || sp_length(reader->gravity) >= LEAST ||
+           fail_at(reader, reader->text,
+                   "found a velocity below 1e-150 m/s in \"%.40s\", expected more where no --gravity lets it fall",
+                   error);
 }
 
 /* Takes the line's end off; NULL where zero bytes or carriage returns are left, behind which no more would be read. */

@@ -63,6 +63,8 @@ static bool trace_file(cli_rays *reader, const sp_tracer *tracer, const cli_opti
                                    : "ray,t,triangle,u,v,x,y,z,speed,incidence_deg\n");
     if (good && options->json)
         printf("]}\n");
+    if (good && total == 0)
+        fprintf(stderr, "sprayplan: trace: %s holds no rays\n", reader->path);
     free(rays);
     free(hits);
     return good;
@@ -81,7 +83,9 @@ int cli_trace(const cli_options *options)
     sp_mesh *mesh = cli_load_mesh(options, &error);
     cli_progress_stage(options, "accelerator");
     sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, options->threads, &error) : NULL;
-    cli_rays reader = {.path = cli_input_name(options->rays), .file = tracer ? cli_open(options->rays, &error) : NULL};
+    cli_rays reader = {.path = cli_input_name(options->rays),
+                       .file = tracer ? cli_open(options->rays, &error) : NULL,
+                       .gravity = options->gravity};
     cli_progress_end();
     bool good = reader.file && trace_file(&reader, tracer, options, &error);
     if (reader.file && reader.file != stdin)

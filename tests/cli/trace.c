@@ -1,6 +1,8 @@
 /* sprayplan trace: its CSV, exact for rays whose hits are exact in binary. */
 #include "workplace.h"
 
+#include <math.h>
+
 #define HEADER "ray,t,triangle,u,v,x,y,z,speed,incidence_deg\n"
 
 /* In the room: down on the floor's first and second triangle (a quad is a fan: 1 2 3 and 1 3 4), slantwise on the
@@ -47,6 +49,71 @@ static void parabolas_fall(void **state)
     static const char expected[] = HEADER "0,0.25,0,0.5,0.25,0.75,0.25,0,1.4142135623730951,45";
     assert_memory_equal(result.out, expected, sizeof expected - 1);
     assert_int_equal(result.status, 0);
+    forget(&result);
+}
+
+/* Let go 1/2 m above the floor, g = 4: it falls t = 1/2 s, to 2 m/s. */
+static void a_drop_that_is_let_go_falls(void **state)
+{
+    (void)state;
+    static const char *const velocities[] = {"0,0,0", "0,1e-200,0"};
+    for (size_t i = 0; i < sizeof velocities / sizeof *velocities; i++) {
+        char ray[64];
+        snprintf(ray, sizeof ray, "0.75,0.25,0.5,%s\n", velocities[i]);
+        write_file("still.csv", ray);
+        outcome result = run_program("trace room.obj --rays still.csv --gravity 0,0,-4");
+        assert_string_equal(result.out, HEADER "0,0.5,0,0.5,0.25,0.75,0.25,0,2,0\n");
+        assert_int_equal(result.status, 0);
+        forget(&result);
+        result = run_program("trace room.obj --rays still.csv");
+        assert_non_null(strstr(result.err, "still.csv:1:1: found a velocity below 1e-150 m/s in \"0.75,"));
+        assert_int_equal(result.status, 3);
+        forget(&result);
+    }
+}
+
+/* In 1e30 m/s2 it takes 1e-15 s to the floor 1/2 m below. */
+static void gravity_has_an_end(void **state)
+{
+    (void)state;
+    write_file("drop.csv", "0.75,0.25,0.5,0,0,-1\n");
+    outcome result = run_program("trace room.obj --rays drop.csv --gravity 0,0,-1e30");
+    assert_int_equal(result.status, 0);
+    assert_true(fabs(strtod(result.out + sizeof HEADER + 1, NULL) / 1e-15 - 1) < 1e-12);
+    forget(&result);
+    static const char *const beyond[] = {"0,0,-1e31", "1e308,0,0", "0,-1.1e30,0"};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "trace room.obj --rays drop.csv --gravity %s", beyond[i]);
+        result = run_program(line);
+        assert_int_equal(result.status, 2);
+        assert_non_null(strstr(result.err, "expected gx,gy,gz in m/s2, up to 1e30 each"));
+        forget(&result);
+    }
+}
+
+static void a_file_without_rays_is_told(void **state)
+{
+    (void)state;
+    write_file("none.csv", "# ox,oy,oz,vx,vy,vz\n\n");
+    outcome result = run_program("trace room.obj --rays none.csv");
+    assert_string_equal(result.out, HEADER);
+    assert_string_equal(result.err, "sprayplan: trace: none.csv holds no rays\n");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    json_t *object = expect_json("trace room.obj --rays none.csv --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "hits")), 0);
+    json_decref(object);
+}
+
+/* Without a number: its place among the hits is that. */
+static void help_says_what_a_miss_is(void **state)
+{
+    (void)state;
+    outcome result = run_program("trace --help");
+    for (char *at = result.out; *at; at++)
+        *at = *at == '\n' ? ' ' : *at;
+    assert_non_null(strstr(result.out, "with --json null"));
     forget(&result);
 }
 
@@ -162,6 +229,10 @@ int main(void)
         cmocka_unit_test(lines_hit_where_they_must),
         cmocka_unit_test(rays_are_in_m_whatever_the_mesh),
         cmocka_unit_test(parabolas_fall),
+        cmocka_unit_test(a_drop_that_is_let_go_falls),
+        cmocka_unit_test(gravity_has_an_end),
+        cmocka_unit_test(a_file_without_rays_is_told),
+        cmocka_unit_test(help_says_what_a_miss_is),
         cmocka_unit_test(every_accelerator_and_thread_count_gives_the_same_bytes),
         cmocka_unit_test(json_holds_the_same),
         cmocka_unit_test(a_bad_ray_is_located),
