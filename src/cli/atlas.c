@@ -9,12 +9,18 @@ enum { PAGE_EDGE = 4096 };
 /* Before charts are made, which may take long too. */
 static bool check_texels(const sp_mesh *mesh, double texel, sp_error *error)
 {
-    double texels = sp_mesh_area(mesh) / (texel * texel);
+    sp_vec3 low, high;
+    double area = sp_mesh_area(mesh), texels = area / texel / texel, diagonal = sp_mesh_box(mesh, &low, &high);
+    if (texel > diagonal)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "found a texel of %g m on a surface with a diagonal of %.4g m, expected no more than that, or "
+                       "another unit of the file's coordinates, as --unit mm",
+                       texel, diagonal);
     return texels <= SP_ATLAS_TEXELS_MOST ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "found %.3g texels of %g m on a surface of %.4g m2, expected at most %g of them, or another unit of "
                    "the file's coordinates, as --unit mm",
-                   texels, texel, texels * texel * texel, SP_ATLAS_TEXELS_MOST);
+                   texels, texel, area, SP_ATLAS_TEXELS_MOST);
 }
 
 /* On which a piece that is as long as an edge of the mesh still fits a page: no other is longer. */

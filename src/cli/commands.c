@@ -42,10 +42,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
          "Evaluates the scene's own nozzles in every way there is, and tells the error, seconds and memory of "
          "each; where the scene has mounts, placements with cheaper and dearer settings follow.",
          "sprayplan study vessel.yaml -o out/study", 1, 1},
-    [CLI_ATLAS] = {"atlas", "MESH", "texture atlas alone: the mesh with texture coordinates, and figures",
-                   "Unfolds an OBJ, STL or PLY file to a texture atlas and prints how good it is. With -o the mesh is "
-                   "written in m, with its texture coordinates, and a picture of every page beside it.",
-                   "sprayplan atlas vessel.obj -o unfolded.obj --unit mm --texel 10mm", 1, 1},
+    [CLI_ATLAS] =
+        {"atlas", "MESH", "texture atlas alone: the mesh with texture coordinates, and figures",
+         "Unfolds a surface (OBJ, STL, PLY, STEP, IGES or BREP) to a texture atlas and prints how good it is. "
+         "With -o the mesh is written in m, with its texture coordinates, and a picture of every page beside it.",
+         "sprayplan atlas vessel.obj -o unfolded.obj --unit mm --texel 10mm", 1, 1},
     [CLI_TRACE] =
         {"trace", "MESH", "nearest hits of given lines or parabolas, as CSV",
          "Prints, for every ray of a file, the triangle that it hits first, where, when, how fast and at what "

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LEAST_TEXEL 1e-30 /* m: any surface has a number of them */
+
 static bool wrong(const char *option, const char *found, const char *expected)
 {
     fprintf(stderr, "sprayplan: %s: found \"%s\", expected %s\n", option, found, expected);
@@ -69,8 +71,8 @@ static bool parse_memory(const char *text, double *bytes)
 static bool parse_texel(const char *text, double *texel)
 {
     sp_error error = {0};
-    if (!sp_quantity_parse(text, "m", texel, &error) || *texel <= 0)
-        return wrong("--texel", text, "a length above 0, as 10mm or 0.01");
+    if (!sp_quantity_parse(text, "m", texel, &error) || *texel < LEAST_TEXEL)
+        return wrong("--texel", text, "a length above 0 (1e-30 m at least), as 10mm or 0.01");
     return true;
 }
 

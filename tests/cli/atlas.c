@@ -59,12 +59,37 @@ static void too_many_texels_are_refused(void **state)
         "another unit of the file's coordinates, as --unit mm\n");
 }
 
+/* The room has 6 m2 and a diagonal of 1.7 m. */
+static void texels_longer_than_all_are_refused(void **state)
+{
+    (void)state;
+    expect_refused("atlas room.obj --texel 1e308",
+                   "room.obj: found a texel of 1e+308 m on a surface with a diagonal of 1.732 m, expected no more than "
+                   "that, or another unit of the file's coordinates, as --unit mm\n");
+    expect_refused("atlas room.obj --texel 1.74", "room.obj: found a texel of 1.74 m on a surface with a diagonal of "
+                                                  "1.732 m, expected no more than that, or another unit of the file's "
+                                                  "coordinates, as --unit mm\n");
+    json_decref(expect_json("atlas room.obj --texel 1.73 --json", 0));
+}
+
+static void texels_too_short_to_count_are_refused(void **state)
+{
+    (void)state;
+    expect_refused("atlas room.obj --texel 1e-30",
+                   "room.obj: found 6e+60 texels of 1e-30 m on a surface of 6 m2, expected at most 1e+09 of them, or "
+                   "another unit of the file's coordinates, as --unit mm\n");
+    outcome result = run_program("atlas room.obj --texel 1e-308");
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.err, "--texel: found \"1e-308\", expected a length above 0 (1e-30 m at least)"));
+    forget(&result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_long_part_gets_texels_that_fit),
-        cmocka_unit_test(a_mesh_may_be_in_mm),
-        cmocka_unit_test(too_many_texels_are_refused),
+        cmocka_unit_test(a_long_part_gets_texels_that_fit),      cmocka_unit_test(a_mesh_may_be_in_mm),
+        cmocka_unit_test(too_many_texels_are_refused),           cmocka_unit_test(texels_longer_than_all_are_refused),
+        cmocka_unit_test(texels_too_short_to_count_are_refused),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
