@@ -61,11 +61,16 @@ static void a_drop_that_is_let_go_falls(void **state)
         char ray[64];
         snprintf(ray, sizeof ray, "0.75,0.25,0.5,%s\n", velocities[i]);
         write_file("still.csv", ray);
-        outcome result = run_program("trace room.obj --rays still.csv --gravity 0,0,-4");
-        assert_string_equal(result.out, HEADER "0,0.5,0,0.5,0.25,0.75,0.25,0,2,0\n");
-        assert_int_equal(result.status, 0);
-        forget(&result);
-        result = run_program("trace room.obj --rays still.csv");
+        for (int k = 0; k < 4; k++) {
+            static const char *const ways[] = {"bvh", "sah", "naive", "none"};
+            char line[128];
+            snprintf(line, sizeof line, "trace room.obj --rays still.csv --gravity 0,0,-4 --accel %s", ways[k]);
+            outcome fallen = run_program(line);
+            assert_string_equal(fallen.out, HEADER "0,0.5,0,0.5,0.25,0.75,0.25,0,2,0\n");
+            assert_int_equal(fallen.status, 0);
+            forget(&fallen);
+        }
+        outcome result = run_program("trace room.obj --rays still.csv");
         assert_non_null(strstr(result.err, "still.csv:1:1: found a velocity below 1e-150 m/s in \"0.75,"));
         assert_int_equal(result.status, 3);
         forget(&result);
