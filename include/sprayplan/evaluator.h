@@ -90,13 +90,14 @@ SP_API void sp_evaluator_part_sides(const sp_evaluator *evaluator, sp_part_sides
 
 /* What was made of all the geometry, sound or not; what only its flood tells is 0 where no cavity is named. */
 typedef struct {
-    size_t left_out;       /* triangles without area */
-    bool sides_known;      /* a cavity is named */
-    size_t closed, turned; /* shells that are closed: bodies or rooms; of these, drawn inside out and turned round */
-    size_t open;           /* shells that are not: sheets, of which both sides count where liquid reaches them */
-    double open_area;      /* m², of their triangles */
-    sp_part_sides sides;   /* of all parts together */
-    double outdoors;       /* m², as sp_evaluator_outdoors */
+    size_t left_out;     /* triangles without area */
+    bool sides_known;    /* a cavity is named */
+    size_t closed;       /* shells that are closed: bodies or rooms */
+    sp_flaw turned;      /* of these, drawn inside out and turned round */
+    size_t open;         /* shells that are not: sheets, of which both sides count where liquid reaches them */
+    double open_area;    /* m², of their triangles */
+    sp_part_sides sides; /* of all parts together */
+    double outdoors;     /* m², as sp_evaluator_outdoors */
 } sp_geometry_account;
 SP_API sp_geometry_account sp_evaluator_account(const sp_evaluator *evaluator);
 

@@ -51,9 +51,10 @@ static void add_shells(clause_list *list, const sp_geometry_account *account)
     if (account->closed)
         add(list, false, "%zu closed shell%s %s taken for bodies and rooms", account->closed, plural(account->closed),
             account->closed == 1 ? "is" : "are");
-    if (account->turned)
-        add(list, true, "%zu closed shell%s drawn inside out %s turned round", account->turned, plural(account->turned),
-            account->turned == 1 ? "is" : "are");
+    size_t turned = account->turned.count;
+    if (turned)
+        add(list, true, "%zu closed shell%s drawn inside out %s turned round", turned, plural(turned),
+            turned == 1 ? "is" : "are");
     if (account->open)
         add(list, false, "%zu open shell%s of %.4g m\xc2\xb2 %s: both sides count where liquid reaches them",
             account->open, plural(account->open), account->open_area, account->open == 1 ? "is a sheet" : "are sheets");

@@ -51,7 +51,7 @@ static bool put_account(json_t *geometry, const sp_evaluator *evaluator)
                sp_put_count(object, "cad_sewn_faces", cad->sewn) && sp_put_count(object, "cad_faults", cad->faults);
     if (done && account.sides_known)
         done = sp_put_count(object, "closed_shells", account.closed) &&
-               sp_put_count(object, "turned_shells", account.turned) &&
+               sp_put_count(object, "turned_shells", account.turned.count) &&
                sp_put_count(object, "open_shells", account.open) &&
                sp_put_real(object, "open_shells_m2", account.open_area) &&
                sp_put_real(object, "inside_m2", account.sides.inside) &&

@@ -21,6 +21,15 @@ static bool measure_parts(cli_findings *found, sp_error *error)
     return sp_mesh_volumes(mesh, found->part_volume, error);
 }
 
+/* Inside out is what is turned round in view of the cavity, a room around it not; without one nothing is turned, and
+ * what the mesh alone tells is told. */
+static void judge_shells(cli_findings *found)
+{
+    sp_geometry_account account = sp_evaluator_account(found->opened->evaluator);
+    if (account.sides_known)
+        found->mesh.inside_out = account.turned;
+}
+
 /* Boxes in the coordinates of the scene's file. */
 static void tell_boxes(cli_findings *found)
 {
@@ -58,6 +67,7 @@ static bool examine(const cli_options *options, cli_findings *found, sp_error *e
         !sp_evaluator_beyond_caps(found->opened->evaluator, &found->beyond_caps, error) ||
         !sp_mesh_diagnose(cli_findings_setup(found)->mesh, &found->mesh, error))
         return false;
+    judge_shells(found);
     tell_boxes(found);
     if (!cli_findings_warn(found, error) || !cli_write_wet(options, found->opened, error) ||
         !cli_repair_write(options, found->opened->scene, &found->repair, error))

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#define INSIDE_OUT offsetof(sp_mesh_diagnosis, inside_out)
+
 static const struct {
     const char *key, *name;
     size_t offset;
@@ -17,7 +19,7 @@ static const struct {
     {"non_manifold_edges", "non-manifold edges", offsetof(sp_mesh_diagnosis, non_manifold_edges)},
     {"flipped_edges", "flipped edges", offsetof(sp_mesh_diagnosis, flipped_edges)},
     {"crossings", "crossings in a shell", offsetof(sp_mesh_diagnosis, crossings)},
-    {"inside_out", "shells inside out", offsetof(sp_mesh_diagnosis, inside_out)},
+    {"inside_out", "shells inside out", INSIDE_OUT},
     {"bits", "loose bits", offsetof(sp_mesh_diagnosis, bits)},
 };
 #define KINDS (sizeof kinds / sizeof *kinds)
@@ -79,8 +81,9 @@ void cli_flaws_print_change(const sp_mesh_diagnosis *before, const sp_mesh_diagn
         if (!any)
             printf("%-24s %12s %12s\n", "flaw", "before", "after");
         any = true;
-        printf("%-24s %11zu%c %11zu%c\n", kinds[kind].name, was->count, was->more ? '+' : ' ', is->count,
-               is->more ? '+' : ' ');
+        /* a mesh alone does not tell whether that is a room, and right */
+        const char *name = kinds[kind].offset == INSIDE_OUT ? "shells facing inwards" : kinds[kind].name;
+        printf("%-24s %11zu%c %11zu%c\n", name, was->count, was->more ? '+' : ' ', is->count, is->more ? '+' : ' ');
     }
 }
 

@@ -1,6 +1,8 @@
 /* What became of each part's surface, for whoever looks after the geometry. */
 #include "spray/wet/wet.h"
 
+#include "mesh/diagnosis/flaw.h"
+
 static void add_side(const sp_wet *wet, size_t side, sp_part_sides *part)
 {
     double area = wet->faces.area[side / 2];
@@ -51,7 +53,8 @@ sp_geometry_account sp_evaluator_account(const sp_evaluator *evaluator)
     for (size_t s = 0; s < shells->count; s++) {
         account.open += !shells->closed[s];
         account.closed += shells->closed[s];
-        account.turned += shells->turn[s] < 0;
+        if (shells->turn[s] < 0)
+            sp_flaw_add(&account.turned, sp_middle_of(mesh, mesh->triangles[shells->widest[s]]));
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         account.open_area += shells->closed[shells->of[t]] ? 0 : sp_triangle_area(mesh, t);
