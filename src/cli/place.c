@@ -1,4 +1,5 @@
 /* sprayplan place: a proposed layout, or one for each alternative, compared with the scene's own nozzles. */
+#include "amounts.h"
 #include "cli.h"
 
 #include <math.h>
@@ -106,6 +107,14 @@ static void say_water_is_lacking(const sp_proposal *proposal)
                 lacking);
 }
 
+static void say_what_is_covered(const sp_coverage *coverage, double percent_asked)
+{
+    char covered[CLI_AMOUNT];
+    cli_amount_text(coverage->covered_area, coverage->area, 3, 4, covered);
+    fprintf(stderr, "sprayplan: the proposal covers %.1f %% of the surface (%s m2), not the %.4g %% asked for\n",
+            100 * coverage->fraction, covered, percent_asked);
+}
+
 static void say_what_is_missing(const sp_proposal *proposal)
 {
     const sp_coverage *coverage = proposal->coverage;
@@ -131,8 +140,7 @@ static void say_what_is_missing(const sp_proposal *proposal)
                 percent * proposal->asked_area, ceil(100 * percent * proposal->attainable_area - 1e-7) / 100,
                 100 * coverage->fraction, 100 * coverage->covered_area / proposal->attainable_area);
     else
-        fprintf(stderr, "sprayplan: the proposal covers %.1f %% of the surface (%.3f m2), not the %.4g %% asked for\n",
-                100 * coverage->fraction, coverage->covered_area, percent * proposal->asked_area);
+        say_what_is_covered(coverage, percent * proposal->asked_area);
 }
 
 /* Whether this rank has reason to end. */

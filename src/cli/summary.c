@@ -1,4 +1,5 @@
 /* What a command leaves on standard output: a summary, or JSON. */
+#include "amounts.h"
 #include "cli.h"
 
 #include <stdlib.h>
@@ -46,7 +47,15 @@ static void print_geometry(const sp_result *result)
 /* A column of L/min, with the digits that tell `whole`, of which `flow` is a part or which it is. */
 static void print_water(int width, double flow, double whole)
 {
-    printf(" %*.*f", width, sp_water_decimals(6e4 * whole), 6e4 * flow);
+    char text[CLI_AMOUNT];
+    cli_amount_text(6e4 * flow, 6e4 * whole, 1, 3, text);
+    printf(" %*s", width, text);
+}
+
+/* m² of the surface to be cleaned, with the digits that tell all of it. */
+static void area_text(const sp_figures *figures, double area, int least, char text[CLI_AMOUNT])
+{
+    cli_amount_text(area, figures->clean_area, least, least + 1, text);
 }
 
 /* Water and mounts, and that in money; nothing where neither is told. */
@@ -60,15 +69,18 @@ static void print_price(const sp_figures *figures)
 
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
+    char covered[CLI_AMOUNT], by_water[CLI_AMOUNT];
+    area_text(figures, figures->covered_area, 3, covered);
     printf("%-*s %8zu", width, name, figures->nozzle_count);
     print_water(12, figures->flow, figures->flow);
-    printf(" %13.*f %10.1f", sp_area_decimals(figures, 3), figures->covered_area, 100 * figures->coverage);
+    printf(" %13s %10.1f", covered, 100 * figures->coverage);
     if (!isnan(figures->of_attainable))
         printf(" %15.1f", 100 * figures->of_attainable);
     else
         printf(" %15s", "");
     double ratio = isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4;
-    printf(" %14.*f", sp_told_decimals(ratio, 4, 3), ratio);
+    cli_amount_text(ratio, ratio, 4, 3, by_water);
+    printf(" %14s", by_water);
     print_price(figures);
     printf("\n");
 }
@@ -174,7 +186,9 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
             printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
                    "astray L/min", "per girth L/min/m");
         told = true;
-        printf("%-*s %12.*f", width, result->designs[i].name, sp_area_decimals(&figures[i], 3), film->area);
+        char alone[CLI_AMOUNT];
+        area_text(&figures[i], film->area, 3, alone);
+        printf("%-*s %12s", width, result->designs[i].name, alone);
         print_water(16, film->left, figures[i].flow);
         print_water(16, film->held, figures[i].flow);
         print_water(16, film->astray, figures[i].flow);
@@ -274,23 +288,25 @@ static void print_parts(const sp_figures *figures, sp_reason reason)
 static void print_missing(const sp_figures *figures, const sp_proposal *proposal, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
-    int digits = sp_area_decimals(figures, 4);
+    char area[CLI_AMOUNT];
+    area_text(figures, figures->beyond_area, 4, area);
     if (figures->beyond_area > SP_BEYOND_TOLD * figures->clean_area)
         printf("%s%sreached by the scene's own nozzles alone, by none that is allowed: %.1f %% of the surface to be "
-               "cleaned, %.*f m2\n",
-               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, digits,
-               figures->beyond_area);
+               "cleaned, %s m2\n",
+               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, area);
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;
-    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.*f m2\n", name,
+    area_text(figures, missing, 4, area);
+    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %s m2\n", name,
            name[0] ? ": " : "", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
-           percent < 1 ? 3 : 1, percent, digits, missing);
+           percent < 1 ? 3 : 1, percent, area);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);
         if (!text || !(figures->missing_area[reason] > 0))
             continue;
-        printf("  %.*f m2 %s", digits, figures->missing_area[reason], text);
+        area_text(figures, figures->missing_area[reason], 4, area);
+        printf("  %s m2 %s", area, text);
         print_parts(figures, reason);
         printf("\n");
     }

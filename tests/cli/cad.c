@@ -187,6 +187,27 @@ static void check_tells_what_was_kept(void **state)
     forget(&told);
 }
 
+/* What is told of bodies, whatever their size. */
+static void volumes_have_digits(void **state)
+{
+    (void)state;
+    need_cad();
+    static const struct {
+        const char *scale, *told;
+    } sizes[] = {{"1e-5", " cylinder                       7.85e-16 "},
+                 {"20", " cylinder                     6283.18531 "}};
+    make("round", "round.step", "INCH");
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char scene[200];
+        snprintf(scene, sizeof scene, "geometry:\n  - {file: round.step, angle: 20 deg, scale: %s}\n", sizes[i].scale);
+        write_file("sized.yaml", scene);
+        outcome told = run_program("check sized.yaml");
+        if (!strstr(told.out, sizes[i].told))
+            fail_msg("nowhere: %s\n%s", sizes[i].told, told.out);
+        forget(&told);
+    }
+}
+
 /* What was written as a scene is cut as it was, and covered as it was. */
 static void expect_same_again(const char *command, const char *again)
 {
@@ -311,6 +332,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(only_its_inside_lid_and_agitator_are_cleaned, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(the_same_as_obj, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(check_tells_what_was_kept, open_workplace, close_workplace),
+        cmocka_unit_test_setup_teardown(volumes_have_digits, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(the_vessel_is_simulated_and_placed_in, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(what_is_written_is_cut_as_finely, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(what_reads_cad_may_be_missing_or_die, open_workplace, close_workplace),

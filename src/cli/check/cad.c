@@ -1,5 +1,7 @@
 #include "cad.h"
 
+#include "../amounts.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -40,6 +42,15 @@ json_t *cli_cad_json(const sp_scene *scene, const sp_mesh *mesh)
     return list;
 }
 
+/* m³, with the digits that tell a body's: eight decimals, of small ones more, of large ones no more than nine digits.
+ */
+static void volume_text(double volume, double body, char text[CLI_AMOUNT])
+{
+    enum { DECIMALS = 8, LEAST_DIGITS = 3 };
+    int whole_digits = (int)fmax(log10(fabs(body)), 0);
+    cli_amount_text(volume, body, whole_digits < DECIMALS ? DECIMALS - whole_digits : 0, LEAST_DIGITS, text);
+}
+
 void cli_cad_print_volumes(const sp_mesh *mesh, const double *volumes)
 {
     bool any = false;
@@ -50,9 +61,12 @@ void cli_cad_print_volumes(const sp_mesh *mesh, const double *volumes)
         if (!any)
             printf("\n%-8s %-24s %14s %14s %8s\n", "geometry", "body", "volume m3", "triangles m3", "off %");
         any = true;
-        printf("%-8lu %-24s %14.8f ", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name, body);
+        char text[CLI_AMOUNT];
+        volume_text(body, body, text);
+        printf("%-8lu %-24s %14s ", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name, text);
+        volume_text(own, body, text);
         if (fabs(own) > 0)
-            printf("%14.8f %8.3f\n", own, 100 * (own / body - 1));
+            printf("%14s %8.3f\n", text, 100 * (own / body - 1));
         else
             printf("%14s\n", "not closed");
     }

@@ -2,6 +2,15 @@
 #include "cad.h"
 #include "findings.h"
 #include "openings.h"
+#include "../amounts.h"
+
+enum { AREA_DECIMALS = 4, AREA_DIGITS = 3 };
+
+/* m², with the digits that tell `whole`, of which it is a part or which it is. */
+static void area_text(double area, double whole, char text[CLI_AMOUNT])
+{
+    cli_amount_text(area, whole, AREA_DECIMALS, AREA_DIGITS, text);
+}
 
 static void print_cavity(const cli_findings *found)
 {
@@ -21,9 +30,11 @@ static void print_cavity(const cli_findings *found)
 static void print_caps(const cli_findings *found)
 {
     size_t count = cli_findings_setup(found)->cap_count;
+    char beyond[CLI_AMOUNT];
+    area_text(found->beyond_caps, found->mesh.area, beyond);
     if (count)
-        printf("caps        %zu; beyond %s %.4f m2 that liquid would reach else\n", count, count == 1 ? "it" : "them",
-               found->beyond_caps);
+        printf("caps        %zu; beyond %s %s m2 that liquid would reach else\n", count, count == 1 ? "it" : "them",
+               beyond);
 }
 
 static void print_sweep(const sp_evaluator *evaluator)
@@ -47,6 +58,15 @@ static void print_boxes(const cli_findings *found)
     }
 }
 
+/* A column of m², with the digits that tell the whole mesh, or a part so small that these tell nothing of it. */
+static void print_part_area(const cli_findings *found, size_t part, int width, double area)
+{
+    char text[CLI_AMOUNT];
+    cli_amount_text(area, found->part_area[part], sp_told_decimals(found->mesh.area, AREA_DECIMALS, AREA_DIGITS), 1,
+                    text);
+    printf(" %*s", width, text);
+}
+
 /* Wet, dry, inside another body and touching add up to one side of closed parts and to both sides of sheets. */
 static void print_parts(const cli_findings *found)
 {
@@ -56,9 +76,14 @@ static void print_parts(const cli_findings *found)
            "wet m2", "dry m2", "inside m2", "touch m2");
     for (size_t i = 0; i < mesh->part_count; i++) {
         const sp_part_sides *sides = &found->part_sides[i];
-        printf("%-8lu %-24s %-9s %10zu %12.4f %12.4f %10.4f %10.4f %10.4f\n", (unsigned long)mesh->parts[i].geometry,
-               mesh->parts[i].name, setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i],
-               found->part_area[i], sides->wet, sides->dry, sides->inside, sides->touching);
+        printf("%-8lu %-24s %-9s %10zu", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
+               setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i]);
+        print_part_area(found, i, 12, found->part_area[i]);
+        print_part_area(found, i, 12, sides->wet);
+        print_part_area(found, i, 10, sides->dry);
+        print_part_area(found, i, 10, sides->inside);
+        print_part_area(found, i, 10, sides->touching);
+        printf("\n");
     }
 }
 
@@ -76,14 +101,31 @@ static void print_hollows(const cli_findings *found)
     }
 }
 
+static void print_nozzles(const sp_layout *layout, const sp_fluid *liquid)
+{
+    if (layout->count)
+        printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
+    for (size_t i = 0; i < layout->count; i++) {
+        const sp_nozzle *nozzle = &layout->nozzles[i];
+        double l_min = 6e4 * sp_nozzle_flow(nozzle, liquid);
+        char flow[CLI_AMOUNT];
+        cli_amount_text(l_min, l_min, 3, 3, flow);
+        printf("%-16s %-20s %12s %11.3f %10.2f\n", nozzle->name, nozzle->type->name, flow,
+               sp_nozzle_speed(nozzle, liquid), sp_nozzle_angle(nozzle) * 180 / M_PI);
+    }
+}
+
 void cli_findings_print(const cli_findings *found, const char *output)
 {
     const sp_setup *setup = cli_findings_setup(found);
     const sp_mesh *mesh = setup->mesh;
     const sp_fidelity *fidelity = sp_evaluator_fidelity(found->opened->evaluator);
     const sp_patches *patches = sp_evaluator_patches(found->opened->evaluator);
-    printf("triangles   %zu (%.4f m2), %zu vertices, box %.4g x %.4g x %.4g m\n", mesh->triangle_count,
-           found->mesh.area, mesh->vertex_count, found->mesh.maximum.x - found->mesh.minimum.x,
+    char whole[CLI_AMOUNT], clean[CLI_AMOUNT];
+    area_text(found->mesh.area, found->mesh.area, whole);
+    area_text(patches->total_area, patches->total_area, clean);
+    printf("triangles   %zu (%s m2), %zu vertices, box %.4g x %.4g x %.4g m\n", mesh->triangle_count, whole,
+           mesh->vertex_count, found->mesh.maximum.x - found->mesh.minimum.x,
            found->mesh.maximum.y - found->mesh.minimum.y, found->mesh.maximum.z - found->mesh.minimum.z);
     printf("shells      %zu, %zu closed; %zu open edges, %zu non-manifold, %zu flipped; %zu degenerate, %zu double "
            "triangles\n",
@@ -94,8 +136,7 @@ void cli_findings_print(const cli_findings *found, const char *output)
     print_cavity(found);
     print_caps(found);
     print_sweep(found->opened->evaluator);
-    printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
-           fidelity->texel);
+    printf("to clean    %s m2 in %zu patches of texels of %.4g m\n\n", clean, patches->count, fidelity->texel);
     print_parts(found);
     print_boxes(found);
     cli_cad_print_volumes(cli_findings_setup(found)->mesh, found->part_volume);
@@ -103,13 +144,7 @@ void cli_findings_print(const cli_findings *found, const char *output)
     print_hollows(found);
     bool flawed = cli_flaws_print(&found->mesh);
     cli_repair_print(&found->repair, setup);
-    const sp_layout *layout = sp_scene_layout(found->opened->scene);
-    if (layout->count)
-        printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
-    for (size_t i = 0; i < layout->count; i++)
-        printf("%-16s %-20s %12.3f %11.3f %10.2f\n", layout->nozzles[i].name, layout->nozzles[i].type->name,
-               6e4 * sp_nozzle_flow(&layout->nozzles[i], &setup->liquid),
-               sp_nozzle_speed(&layout->nozzles[i], &setup->liquid), sp_nozzle_angle(&layout->nozzles[i]) * 180 / M_PI);
+    print_nozzles(sp_scene_layout(found->opened->scene), &setup->liquid);
     printf("\n");
     if (output)
         printf("%s/wet.png: blue is cleaned and counted, orange wet but an obstacle, grey dry; above cut open, below "
