@@ -116,6 +116,9 @@ SP_API const char *sp_lack_text(sp_lack lack);
 /* Index in `missing` of the part of which the reason keeps most out of reach, of equal ones the first; given one such
  * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
 SP_API size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
+/* How many parts come after that one in this order, SP_UNKNOWN being before the first, and in *area what the reason
+ * keeps out of reach of them together, m². */
+SP_API size_t sp_missing_after(const sp_figures *figures, sp_reason reason, size_t last, double *area);
 
 /* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not told. */
 SP_API double sp_figures_price(const sp_figures *figures);

@@ -271,17 +271,29 @@ static void print_certificate(const sp_proposal *proposal)
 
 enum { PARTS_NAMED = 3 };
 
+/* Some of what is missing, which has a digit however small it is. */
+static void print_missing_area(const sp_figures *figures, double area)
+{
+    char text[CLI_AMOUNT];
+    cli_amount_text(area, area, sp_area_decimals(figures, 4), 1, text);
+    printf(" %s", text);
+}
+
+/* Those that the reason keeps most out of reach of, by name, and how many more there are. */
 static void print_parts(const sp_figures *figures, sp_reason reason)
 {
-    double left = figures->missing_area[reason];
-    int digits = sp_area_decimals(figures, 4);
-    size_t part = SIZE_MAX;
-    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SIZE_MAX; i++) {
-        printf("%s%s %.*f", i ? ", " : ": ", figures->missing[part].part, digits, figures->missing[part].areas[reason]);
-        left -= figures->missing[part].areas[reason];
+    size_t last = SP_UNKNOWN, part;
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, last)) != SP_UNKNOWN; i++) {
+        printf("%s%s", i ? ", " : ": ", figures->missing[part].part);
+        print_missing_area(figures, figures->missing[part].areas[reason]);
+        last = part;
     }
-    if (left > 0.5 * pow(10, -digits))
-        printf(", other parts %.*f", digits, left);
+    double area;
+    size_t others = sp_missing_after(figures, reason, last, &area);
+    if (!others)
+        return;
+    printf(", %zu other part%s", others, others == 1 ? "" : "s");
+    print_missing_area(figures, area);
 }
 
 /* What no layout can cover, by reason and part; `name` of the alternative, "" for none. */
@@ -305,8 +317,9 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);
         if (!text || !(figures->missing_area[reason] > 0))
             continue;
-        area_text(figures, figures->missing_area[reason], 4, area);
-        printf("  %s m2 %s", area, text);
+        printf(" ");
+        print_missing_area(figures, figures->missing_area[reason]);
+        printf(" m2 %s", text);
         print_parts(figures, reason);
         printf("\n");
     }

@@ -68,23 +68,30 @@ static size_t rank_reasons(const sp_figures *figures, sp_reason ranked[SP_REASON
     return count;
 }
 
-/* Area, reason and the parts that it is most of. */
+/* Some of what is missing, which has a digit however small it is. */
+static void add_area(sp_text *text, const area_unit *unit, double area)
+{
+    sp_markup_decimals(text, unit->per_m2 * area, sp_told_decimals(unit->per_m2 * area, unit->decimals, 1));
+}
+
+/* Area, reason, the parts that it is most of, and how many more there are. */
 static void add_reason(sp_text *text, const sp_figures *figures, const area_unit *unit, sp_reason reason)
 {
-    double others = figures->missing_area[reason];
-    size_t part = SP_UNKNOWN;
-    sp_markup_decimals(text, unit->per_m2 * figures->missing_area[reason], unit->decimals);
+    size_t last = SP_UNKNOWN, part;
+    add_area(text, unit, figures->missing_area[reason]);
     sp_text_add(text, "&nbsp;%s %s", unit->name, reason_text(figures, reason));
-    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SP_UNKNOWN; i++) {
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, last)) != SP_UNKNOWN; i++) {
         sp_text_add(text, i ? ", " : " (");
         sp_markup_escape(text, figures->missing[part].part);
         sp_text_add(text, "&nbsp;");
-        sp_markup_decimals(text, unit->per_m2 * figures->missing[part].areas[reason], unit->decimals);
-        others -= figures->missing[part].areas[reason];
+        add_area(text, unit, figures->missing[part].areas[reason]);
+        last = part;
     }
-    if (others > NEGLIGIBLE * figures->clean_area) {
-        sp_text_add(text, ", others ");
-        sp_markup_decimals(text, unit->per_m2 * others, unit->decimals);
+    double area;
+    size_t others = sp_missing_after(figures, reason, last, &area);
+    if (others) {
+        sp_text_add(text, ", %zu other part%s&nbsp;", others, others == 1 ? "" : "s");
+        add_area(text, unit, area);
     }
     sp_text_add(text, figures->missing_count ? ")" : "");
 }

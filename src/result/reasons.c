@@ -42,16 +42,32 @@ const char *sp_lack_text(sp_lack lack)
     return lacks[lack].text;
 }
 
+/* Whether the reason keeps something of part k out of reach, and less than of the part `last`. */
+static bool comes_after(const sp_missing_figures *parts, sp_reason reason, size_t k, size_t last)
+{
+    double area = parts[k].areas[reason], before = last == SP_UNKNOWN ? INFINITY : parts[last].areas[reason];
+    return area > 0 && (area < before || (area == before && k > last));
+}
+
 size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last)
 {
     const sp_missing_figures *parts = figures->missing;
-    double before = last == SP_UNKNOWN ? INFINITY : parts[last].areas[reason];
     size_t next = SP_UNKNOWN;
-    for (size_t k = 0; k < figures->missing_count; k++) {
-        double area = parts[k].areas[reason];
-        bool after = area < before || (area == before && k > last);
-        if (area > 0 && after && (next == SP_UNKNOWN || area > parts[next].areas[reason]))
+    for (size_t k = 0; k < figures->missing_count; k++)
+        if (comes_after(parts, reason, k, last) &&
+            (next == SP_UNKNOWN || parts[k].areas[reason] > parts[next].areas[reason]))
             next = k;
-    }
     return next;
+}
+
+size_t sp_missing_after(const sp_figures *figures, sp_reason reason, size_t last, double *area)
+{
+    size_t count = 0;
+    *area = 0;
+    for (size_t k = 0; k < figures->missing_count; k++)
+        if (comes_after(figures->missing, reason, k, last)) {
+            *area += figures->missing[k].areas[reason];
+            count++;
+        }
+    return count;
 }

@@ -78,12 +78,57 @@ static void a_small_part_is_told(void **state)
                     " clean              2     0.000001     0.000002   0.000000   0.000000   0.000000\n", NULL});
 }
 
+/* A floor to be washed from 1 m above it; a roof above that, and chips of 1 mm² on it. */
+static void write_roofed(int chips)
+{
+    char mesh[2000], scene[1000];
+    size_t used = (size_t)snprintf(mesh, sizeof mesh,
+                                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 1 1 2\nv 0 1 2\n"
+                                   "g floor\nf 1 2 3 4\ng roof\nf 5 6 7 8\n");
+    for (int i = 0; i < chips; i++)
+        used += (size_t)snprintf(mesh + used, sizeof mesh - used,
+                                 "v .%d .5 3\nv .%d01 .5 3\nv .%d01 .501 3\nv .%d .501 3\ng chip%d\nf -4 -3 -2 -1\n",
+                                 i + 1, i + 1, i + 1, i + 1, i);
+    write_file("roofed.obj", mesh);
+    snprintf(scene, sizeof scene,
+             "geometry:\n  - file: roofed.obj\ncatalogue: catalogue.yaml\nsimulate: {texel: 50 mm, trajectory: line}\n"
+             "place:\n  types: [cone]\n  pressure: 2 bar\n  max_nozzles: 1\n  refine: none\n  mounts:\n"
+             "    - port: {name: P, position: [0.5, 0.5, 1], axis: [0, 0, -1]}\n");
+    write_file("roofed.yaml", scene);
+}
+
+/* None of the parts out of reach is told as nothing, and those that are not named are counted. */
+static void parts_out_of_reach_are_all_told(void **state)
+{
+    (void)state;
+    static const struct {
+        int chips;
+        const char *told, *shown;
+    } cases[] = {{2, "roof 1.0000, chip0 0.000001, chip1 0.000001\n", "chip1&nbsp;0.000001)"},
+                 {3, "roof 1.0000, chip0 0.000001, chip1 0.000001, 1 other part 0.000001\n",
+                  "chip1&nbsp;0.000001, 1 other part&nbsp;0.000001)"},
+                 {6, "roof 1.0000, chip0 0.000001, chip1 0.000001, 4 other parts 0.000004\n",
+                  "chip1&nbsp;0.000001, 4 other parts&nbsp;0.000004)"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_roofed(cases[i].chips);
+        outcome result = run_program("place roofed.yaml -o roofed");
+        const char *line = strstr(result.out, " no line of reach: ");
+        if (!line || !strstr(line, cases[i].told))
+            fail_msg("nowhere: %s\n%s", cases[i].told, result.out);
+        forget(&result);
+        char *page = read_file("roofed/report.html", NULL);
+        assert_non_null(strstr(page, cases[i].shown));
+        free(page);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_tells_small_areas_and_flows),
         cmocka_unit_test(what_is_minute_is_told),
         cmocka_unit_test(a_small_part_is_told),
+        cmocka_unit_test(parts_out_of_reach_are_all_told),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
