@@ -7,19 +7,29 @@ static int order(double a, double b, double tie)
     return a < b - tie ? -1 : a > b + tie;
 }
 
-static bool is_better(const sp_proposal *a, const sp_proposal *b)
+/* What is held against each other. */
+typedef struct {
+    const sp_coverage *coverage;
+    double outlay;
+    bool reaches; /* covers what was asked for */
+} rival;
+
+static rival rival_of(const sp_proposal *proposal)
 {
-    const sp_coverage *x = a->coverage, *y = b->coverage;
-    bool a_reaches = x->covered_area >= a->asked_area, b_reaches = y->covered_area >= b->asked_area;
-    int coverage = order(x->fraction, y->fraction, SP_TIE);
-    int outlay = order(a->outlay, b->outlay, SP_ROUNDING * b->outlay);
-    double other = y->fraction * a->outlay;
-    int ratio = order(x->fraction * b->outlay, other, SP_TIE * other), merit = -outlay;
-    if (a_reaches != b_reaches)
-        return a_reaches;
-    if (!a_reaches || a->objective == SP_OBJECTIVE_MAX_COVERAGE)
+    return (rival){proposal->coverage, proposal->outlay, proposal->coverage->covered_area >= proposal->asked_area};
+}
+
+static bool is_better(sp_objective objective, rival a, rival b)
+{
+    double x = a.coverage->fraction, y = b.coverage->fraction;
+    int coverage = order(x, y, SP_TIE);
+    int outlay = order(a.outlay, b.outlay, SP_ROUNDING * b.outlay);
+    int ratio = order(x * b.outlay, y * a.outlay, SP_TIE * y * a.outlay), merit = -outlay;
+    if (a.reaches != b.reaches)
+        return a.reaches;
+    if (!a.reaches || objective == SP_OBJECTIVE_MAX_COVERAGE)
         merit = coverage;
-    else if (a->objective == SP_OBJECTIVE_AREA_PER_WATER)
+    else if (objective == SP_OBJECTIVE_AREA_PER_WATER)
         merit = ratio;
     merit = merit ? merit : -outlay;
     return (merit ? merit : coverage) > 0;
@@ -29,6 +39,12 @@ size_t sp_place_best(const sp_proposal *const *proposals, size_t count)
 {
     size_t best = 0;
     for (size_t i = 1; i < count; i++)
-        best = is_better(proposals[i], proposals[best]) ? i : best;
+        best = is_better(proposals[i]->objective, rival_of(proposals[i]), rival_of(proposals[best])) ? i : best;
     return best;
+}
+
+bool sp_place_is_beaten(const sp_proposal *proposal, const sp_coverage *coverage, double outlay)
+{
+    rival other = {coverage, outlay, coverage->covered_area >= proposal->asked_area};
+    return is_better(proposal->objective, other, rival_of(proposal));
 }

@@ -238,6 +238,9 @@ SP_API void sp_proposal_destroy(sp_proposal *proposal);
  * cover what was asked for the one of most area per outlay, of least outlay or of most coverage; where none does, the
  * one that covers most. Of equal ones that of less outlay, of these that of more coverage, then the first. */
 SP_API size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
+/* By the same order, whether a layout that no search found, such as the engineer's own, is better than the proposal:
+ * its coverage, on the same evaluator, and its outlay. Limits on number and water are not looked at. */
+SP_API bool sp_place_is_beaten(const sp_proposal *proposal, const sp_coverage *coverage, double outlay);
 
 #ifdef __cplusplus
 }

@@ -221,8 +221,17 @@ SP_API void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
 #define SP_LIMITS_TEXT 120
 SP_API void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT]);
 
+/* Whether the limits of a proposal allow so many nozzles with so much water, m³/s. */
+SP_API bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double flow);
 /* Whether the proposal is more nozzles, or takes more water, than these limits allow: the nozzles to keep are. */
 SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
+
+/* Where the scene's own nozzles ("manual"), within the limits, are better than the proposal by its objective, that they
+ * are and why, as a sentence of plain text; "" elsewhere. `figures` are all designs'. */
+#define SP_OWN_TEXT 160
+SP_API void sp_result_own_better(const sp_result *result, const sp_figures *figures, char text[SP_OWN_TEXT]);
+/* True where the coverage of the layouts counts liquid that walls throw back, which search and certificate do not. */
+SP_API bool sp_result_counts_thrown_back(const sp_result *result);
 
 /* Decimals that a value is told with: `least`, or where these would leave fewer than `digits` significant digits of it
  * as many as do, up to 9. `least` of what is not finite, or 0 with all of these. */

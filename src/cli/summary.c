@@ -377,9 +377,22 @@ static void print_left_out(const sp_result *result)
         printf(".\n");
 }
 
+/* That the scene's own nozzles are better. */
+static void print_own_better(const sp_result *result, const sp_figures *figures)
+{
+    char text[SP_OWN_TEXT];
+    sp_result_own_better(result, figures, text);
+    if (text[0])
+        printf("\n%s\n", text);
+}
+
 /* What is checked and proved of the proposal, or of each alternative. */
 static void print_proofs(const sp_result *result)
 {
+    if (sp_result_counts_thrown_back(result))
+        printf("\nThe coverage of the layouts counts liquid that walls throw back. The search ranks layouts without "
+               "it, and "
+               "what is counted\nagain and proved below is without it.\n");
     if (result->proposal && !sp_result_has_alternatives(result)) {
         print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);
@@ -416,6 +429,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_proposed(result);
+    print_own_better(result, figures);
     print_dose(result, figures, width);
     print_errors(result, figures, width);
     print_choice(result, figures);

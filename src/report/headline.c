@@ -174,6 +174,22 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
         add_shortfall(proposed, proposal, text);
 }
 
+/* Where the proposal does not beat what it is compared with, and one reason why that can be. */
+static void add_own_better(const sp_page *page, sp_text *text)
+{
+    char sentence[SP_OWN_TEXT];
+    sp_result_own_better(page->result, page->figures, sentence);
+    if (sentence[0]) {
+        sp_text_add(text, "<p class=\"warning\" id=\"own-better\">");
+        sp_markup_escape(text, sentence);
+        sp_text_add(text, "</p>\n");
+    }
+    if (sp_result_counts_thrown_back(page->result))
+        sp_text_add(text, "<p class=\"note\" id=\"thrown-back\">The coverage of the layouts counts liquid that walls "
+                          "throw back. The search ranks layouts without it, and what is counted again and proved "
+                          "below is without it.</p>\n");
+}
+
 void sp_page_headline(const sp_page *page, sp_text *text)
 {
     sp_text_add(text, "<p class=\"headline\">");
@@ -192,6 +208,7 @@ void sp_page_headline(const sp_page *page, sp_text *text)
     }
     sp_text_add(text, ".</p>\n");
     sp_page_gain(page, text);
+    add_own_better(page, text);
     if (page->result->proposal)
         add_warnings(&page->figures[page->main], page->result->proposal,
                      sp_evaluator_fidelity(page->result->designs[page->main].evaluator)->accuracy, text);

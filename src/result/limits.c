@@ -7,10 +7,15 @@
 
 #define ROUND_OFF 1e-9 /* of the water, by which a sum of flows may lie above what is allowed */
 
+bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double flow)
+{
+    return (proposal->max_nozzles == 0 || nozzles <= proposal->max_nozzles) &&
+           flow <= proposal->max_water * (1 + ROUND_OFF);
+}
+
 bool sp_exceeds_limits(const sp_proposal *proposal)
 {
-    return (proposal->max_nozzles > 0 && proposal->layout->count > proposal->max_nozzles) ||
-           proposal->coverage->flow > proposal->max_water * (1 + ROUND_OFF);
+    return !sp_limits_allow(proposal, proposal->layout->count, proposal->coverage->flow);
 }
 
 void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT])

@@ -198,7 +198,11 @@ static void the_best_is_chosen_by_the_objective(void **state)
                     proposal_of(&coverages[i], (sp_objective)objective, cases[k].covered[i], cases[k].water[i]);
                 list[i] = &proposals[i];
             }
-            assert_int_equal(sp_place_best(list, 3), cases[k].best[objective]);
+            size_t best = cases[k].best[objective];
+            assert_int_equal(sp_place_best(list, 3), best);
+            for (size_t i = 0; i < 3; i++) /* the same order tells what beats a proposal */
+                assert_false(sp_place_is_beaten(list[best], &coverages[i], cases[k].water[i]));
+            assert_int_equal(sp_place_is_beaten(list[0], &coverages[best], cases[k].water[best]), best != 0);
         }
 }
 

@@ -1,0 +1,103 @@
+/* place says where it does not beat the engineer's own nozzles, and what its search does not count. */
+#include "results.h"
+
+#define BETTER "By the objective the scene's own nozzles are better than the proposal: they "
+
+/* room.yaml, its own nozzle of that type, as `name`. */
+static void write_room(const char *name, const char *type)
+{
+    char scene[sizeof room_yaml + 16];
+    const char *at = strstr(room_yaml, "type: cone"), *after = at + strlen("type: cone");
+    snprintf(scene, sizeof scene, "%.*stype: %s%s", (int)(at - room_yaml), room_yaml, type, after);
+    write_file(name, scene);
+}
+
+/* What the terminal says of it; `why` NULL: that it says nothing. */
+static void expect_better(const char *scene, const char *settings, const char *why)
+{
+    char arguments[512], sentence[200];
+    snprintf(arguments, sizeof arguments, "place %s --set place.refine=none %s " COARSE, scene, settings);
+    outcome done = run_program(arguments);
+    snprintf(sentence, sizeof sentence, "\n" BETTER "%s.\n", why ? why : "");
+    if (!strstr(done.out, why ? sentence : "layout ") || (!why && strstr(done.out, BETTER)))
+        fail_msg("%s\n%s%s", arguments, done.out, done.err);
+    forget(&done);
+}
+
+/* One ball of 20 L/min, where no more is allowed than one cone of 12, which covers less. */
+static void what_beats_the_proposal_is_told(void **state)
+{
+    (void)state;
+    write_room("ball.yaml", "ball");
+    expect_better("ball.yaml",
+                  "--set 'place.types=[cone]' --set place.objective=max_coverage --set place.max_nozzles=1 "
+                  "--set 'place.coverage=80 %'",
+                  "cover what was asked for, which it does not");
+    expect_better("ball.yaml",
+                  "--set 'place.types=[cone]' --set place.objective=max_coverage --set place.max_nozzles=1 "
+                  "--set 'place.coverage=10 %'",
+                  "cover more");
+}
+
+static void what_does_not_or_is_beyond_the_limits_is_not(void **state)
+{
+    (void)state;
+    write_room("ball.yaml", "ball");
+    expect_better("room.yaml", "", NULL);
+    expect_better("ball.yaml",
+                  "--set 'place.types=[cone]' --set place.objective=max_coverage --set 'place.max_water=15 L/min'",
+                  NULL);
+}
+
+static void the_page_tells_it_too(void **state)
+{
+    (void)state;
+    write_room("cone.yaml", "cone");
+    outcome done =
+        run_program("place cone.yaml --set place.refine=none --set 'place.types=[ball]' "
+                    "--set place.objective=min_water --set 'place.coverage=10 %' --no-live -o better " COARSE);
+    assert_non_null(strstr(done.out, "\n" BETTER "cover what was asked for with less water.\n"));
+    forget(&done);
+    char *page = read_file("better/report.html", NULL);
+    assert_non_null(strstr(page, "id=\"own-better\">By the objective the scene&#39;s own nozzles are better than the "
+                                 "proposal: they "));
+    assert_null(strstr(page, "id=\"thrown-back\""));
+    free(page);
+}
+
+/* Where walls throw liquid back, search and proofs leave out what the figures count. */
+static void what_the_search_does_not_count_is_told(void **state)
+{
+    (void)state;
+    static const char told[] = "The coverage of the layouts counts liquid that walls throw back. The search ranks "
+                               "layouts without it, and what is counted";
+    char scene[sizeof room_yaml + 64];
+    const char *at = strstr(room_yaml, "room.obj\n") + strlen("room.obj\n");
+    snprintf(scene, sizeof scene, "%.*s    restitution: 0.5\n%s", (int)(at - room_yaml), room_yaml, at);
+    write_file("bouncing.yaml", scene);
+    static const char *const reflections[] = {"2", "0"};
+    for (int i = 0; i < 2; i++) {
+        char arguments[512];
+        snprintf(arguments, sizeof arguments,
+                 "place bouncing.yaml --set simulate.evaluator=forward --set simulate.reflections=%s "
+                 "--set simulate.jets=2000 --set place.refine=none --no-live -o bouncing --force " COARSE,
+                 reflections[i]);
+        outcome done = run_program(arguments);
+        char *page = read_file("bouncing/report.html", NULL);
+        assert_int_equal(strstr(done.out, told) != NULL, i == 0);
+        assert_int_equal(strstr(page, "id=\"thrown-back\">The coverage of the layouts counts liquid") != NULL, i == 0);
+        free(page);
+        forget(&done);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_beats_the_proposal_is_told),
+        cmocka_unit_test(what_does_not_or_is_beyond_the_limits_is_not),
+        cmocka_unit_test(the_page_tells_it_too),
+        cmocka_unit_test(what_the_search_does_not_count_is_told),
+    };
+    return cmocka_run_group_tests_name("own nozzles better", tests, open_workplace, close_workplace);
+}
