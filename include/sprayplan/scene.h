@@ -39,6 +39,7 @@ SP_API const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the en
 SP_API sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
 SP_API sp_picture_style sp_scene_picture_style(const sp_scene *scene); /* what `report:` asks for; default for NULL */
 SP_API bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
+SP_API bool sp_scene_lists_nozzles(const sp_scene *scene);             /* the file has `nozzles:`, which may be none */
 
 /* What water is worth, `water_cost` of `place:`. */
 #define SP_CURRENCY 4

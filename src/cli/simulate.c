@@ -1,10 +1,17 @@
 /* sprayplan simulate: what the scene's own nozzles do. */
 #include "cli.h"
 
+/* Where nothing can be covered place proposes no nozzles, and a layout of none is simulated as any other that it wrote;
+ * elsewhere a scene without nozzles is a mistake. */
+static bool has_layout(const sp_scene *scene)
+{
+    return sp_scene_layout(scene)->count > 0 || (sp_scene_has_place(scene) && sp_scene_lists_nozzles(scene));
+}
+
 static int simulate(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     const sp_layout *layout = sp_scene_layout(opened->scene);
-    if (layout->count == 0) {
+    if (!has_layout(opened->scene)) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nozzles: found none, expected at least one to simulate");
         return cli_fail_in(opened, error);
     }

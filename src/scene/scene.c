@@ -157,6 +157,11 @@ bool sp_scene_has_place(const sp_scene *scene)
     return scene && scene->mount_count > 0;
 }
 
+bool sp_scene_lists_nozzles(const sp_scene *scene)
+{
+    return scene && sp_yaml_get(scene->tree, "nozzles");
+}
+
 static bool parse_quantity(const char *text, const char *unit, double *value, sp_error *error)
 {
     sp_units *units = sp_units_create(error);

@@ -81,6 +81,15 @@ static void where_nothing_can_be_covered_place_says_so(void **state)
     outcome again = run_program("check dry/layout.yaml --quiet");
     assert_int_equal(again.status, 0);
     forget(&again);
+    json_t *placed = json_file("dry/result.json"), *proposed = layout_named(placed, "proposed"),
+           *simulated = expect_json("simulate dry/layout.yaml -o dry-again --json", 0),
+           *none = layout_named(simulated, "manual");
+    static const char *const same[] = {"coverage", "water_l_min", "error_estimate"};
+    assert_true(number(proposed, "coverage") == 0);
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+        assert_true(number(proposed, same[i]) == number(none, same[i]));
+    json_decref(simulated);
+    json_decref(placed);
 }
 
 static void same_file(const char *a, const char *b, const char *name)
