@@ -237,9 +237,10 @@ static void print_every_aim(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
     double percent = ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10;
-    printf("Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
+    bool one = certificate->every_aim.places == 1;
+    printf("Whichever way nozzles at %s %zu mounting point%s are aimed, at any roll, angle and flow allowed: none "
            "reaches it with less\nthan ",
-           certificate->every_aim.places);
+           one ? "this" : "these", certificate->every_aim.places, one ? "" : "s");
     print_least_water(proposal, certificate->every_aim.water_bound);
     if (percent < 100)
         printf(", and %s none covers more than %.1f %%",
@@ -255,11 +256,11 @@ static void print_certificate(const sp_proposal *proposal)
             printf("\nThe search ended before anything was proved of how much better a layout could be.\n");
         return;
     }
-    printf(
-        "\nAmong these %zu candidate poses and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
-        "than ",
-        certificate->candidates, certificate->texels,
-        ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10);
+    bool one = certificate->candidates == 1;
+    printf("\nAmong %s %zu candidate pose%s and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
+           "than ",
+           one ? "this" : "these", certificate->candidates, one ? "" : "s", certificate->texels,
+           ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10);
     print_least_water(proposal, certificate->water_bound);
     printf(".\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses between candidates are not covered.\n",
            proposal->costly ? "For the proposal's price" : "With the proposal's water",
@@ -327,8 +328,8 @@ static void print_missing(const sp_figures *figures, const sp_proposal *proposal
     sp_limits_clause(proposal, limits);
     if (limits[0] && figures->missing_area[SP_REASON_FLUX] > 1e-6 * figures->clean_area)
         printf("  %s: with no more than %s; more may reach more\n", sp_reason_text(figures, SP_REASON_FLUX), limits);
-    printf("  at the %zu mounting points looked at; places between them, if any, may reach more\n\n",
-           proposal->positions);
+    printf("  at the %zu mounting point%s looked at; places %s, if any, may reach more\n\n", proposal->positions,
+           proposal->positions == 1 ? "" : "s", proposal->positions == 1 ? "beside it" : "between them");
 }
 
 /* What no layout can cover, of each alternative. */

@@ -289,13 +289,15 @@ static void add_search(sp_text *text, const sp_evaluator *evaluator, const sp_pr
         sp_text_add(text, "</dt><dd>");
     else
         add_item(text, "Search");
-    sp_text_add(text,
-                "%zu poses at %zu mounting points; greedy choice by gain per %s, then refinement, accepted only where "
-                "the re-traced result improved%s</dd>\n",
-                proposal->candidates, proposal->positions, proposal->costly ? "price" : "water",
-                sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG
-                    ? "; solid streams keep their type&#39;s flow, which tells where they break up"
-                    : "");
+    sp_text_add(
+        text,
+        "%zu pose%s at %zu mounting point%s; greedy choice by gain per %s, then refinement, accepted only where "
+        "the re-traced result improved%s</dd>\n",
+        proposal->candidates, proposal->candidates == 1 ? "" : "s", proposal->positions,
+        proposal->positions == 1 ? "" : "s", proposal->costly ? "price" : "water",
+        sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG
+            ? "; solid streams keep their type&#39;s flow, which tells where they break up"
+            : "");
     if (proposal->forward_check.computed)
         add_check(text, &proposal->forward_check);
     add_item(text, "Not proved");

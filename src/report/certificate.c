@@ -24,10 +24,10 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
     if (!found->every_aim.computed)
         return;
     sp_text_add(text,
-                "<p%s>Not only the candidates: of all nozzles at the %zu mounting points, whichever way "
+                "<p%s>Not only the candidates: of all nozzles at the %zu mounting point%s, whichever way "
                 "they point within the mounts&#39; tilt, at any roll and at any angle and flow that refinement may "
                 "set, and of the proposal&#39;s own poses, no layout reaches that with less than ",
-                only ? " id=\"every-aim\"" : "", found->every_aim.places);
+                only ? " id=\"every-aim\"" : "", found->every_aim.places, found->every_aim.places == 1 ? "" : "s");
     add_least_water(text, found->every_aim.water_bound);
     sp_text_add(text, "&nbsp;L/min%s", proposal->costly ? of_both : "");
     if (ceil(1e3 * found->every_aim.area_bound / found->whole - 1e-9) < 1e3) { /* else it says nothing */
@@ -42,10 +42,11 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
 static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
 {
     const sp_certificate *found = &proposal->certificate;
+    bool one = found->candidates == 1;
     sp_text_add(text,
-                "<p>Among these %zu candidate poses "
+                "<p>Among %s %zu candidate pose%s "
                 "and the proposal&#39;s own, on %zu texels, no layout reaches ",
-                found->candidates, found->texels);
+                one ? "this" : "these", found->candidates, one ? "" : "s", found->texels);
     add_percent(text, found->counted / found->whole, true);
     sp_text_add(text, " with less than ");
     add_least_water(text, found->water_bound);

@@ -65,12 +65,12 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
                 camera->height + SP_SCALE_STRIP);
     sp_page_name(page, text, design);
     sp_text_add(text,
-                ", %s: %s in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
+                ", %s: %s in false colour with %zu nozzle%s\"><image width=\"%d\" height=\"%d\" "
                 "preserveAspectRatio=\"none\" href=\"data:image/webp;base64,",
                 viewpoint->caption,
                 page->scale.style.quantity == SP_QUANTITY_FLUX ? "coverage"
                                                                : sp_quantity_words_of[page->scale.style.quantity].name,
-                shown->layout->count, camera->width, camera->height);
+                shown->layout->count, shown->layout->count == 1 ? "" : "s", camera->width, camera->height);
     sp_markup_base64(text, bytes, size);
     sp_text_add(text, "\"/>\n");
     free(bytes);

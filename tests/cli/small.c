@@ -143,12 +143,31 @@ static void little_area_per_water_is_told(void **state)
     json_decref(much);
 }
 
+/* One port without tilt, one type that looks alike at any roll: what there is one of is told so. */
+static void one_is_no_plural(void **state)
+{
+    (void)state;
+    char scene[sizeof small_yaml];
+    snprintf(scene, sizeof scene, "%.*s", (int)(strstr(small_yaml, "    - port: {name: P2") - small_yaml), small_yaml);
+    char *tilt = strstr(scene, ", tilt: 30 deg}");
+    memcpy(tilt, "}              ", strlen(", tilt: 30 deg}"));
+    write_file("one.yaml", scene);
+    outcome done = run_program("place one.yaml --set 'place.types=[drop]' -o one --no-live");
+    expect_text(done.out, "\nAmong this 1 candidate pose and the proposal's own");
+    expect_text(done.out, "  at the 1 mounting point looked at; places beside it");
+    forget(&done);
+    char *html = read_file("one/report.html", NULL);
+    expect_text(html, "<p>Among this 1 candidate pose and the proposal&#39;s own");
+    expect_text(html, "1 pose at 1 mounting point; greedy choice");
+    expect_text(html, "in false colour with 1 nozzle\"");
+    free(html);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_water_is_told_as_nothing),
-        cmocka_unit_test(what_is_proved_is_told),
-        cmocka_unit_test(small_places_and_areas_are_told),
+        cmocka_unit_test(no_water_is_told_as_nothing),   cmocka_unit_test(one_is_no_plural),
+        cmocka_unit_test(what_is_proved_is_told),        cmocka_unit_test(small_places_and_areas_are_told),
         cmocka_unit_test(little_area_per_water_is_told),
     };
     return cmocka_run_group_tests(tests, place_once, put_away);
