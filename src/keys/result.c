@@ -278,7 +278,9 @@ static const sp_block result_layout = {"result_layout", "a layout", NULL, result
 static const sp_key target_keys[] = {
     {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "Asked for"},
     {.name = "coverage_aimed_at", .kind = SP_KEY_NUMBER, .says = "Less where less is attainable"},
-    {.name = "reached", .kind = SP_KEY_FLAG, .says = "Whether the proposal covers that"},
+    {.name = "reached",
+     .kind = SP_KEY_FLAG,
+     .says = "Whether the proposal covers what was asked for, not only what was aimed at, within the limits"},
     {.name = NULL}};
 static const sp_block target = {"target", "what was asked for", NULL, target_keys};
 
