@@ -14,7 +14,7 @@
 #define TRIALS_WATER 2       /* such waters */
 #define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
 #define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
-#define WORK_EACH 1.5e4      /* the same, besides, for every candidate */
+#define WORK_EACH 2.4e4      /* the same, besides, for every candidate */
 #define WORK_POINT_LEAST 3e8 /* that a point may take at first */
 #define WORK_POINT 2e3       /* the same, besides, for every candidate */
 #define CANDIDATES 12800     /* most that come into question for it */
