@@ -17,20 +17,28 @@ typedef struct {
     sp_error *error;
 } sp_annealing;
 
+/* What a nozzle's flow may be set to; its own alone where that is fixed. */
+static void set_flows(const sp_search *search, const sp_placed *placed, double *low, double *high)
+{
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type, placed->nozzle.pressure,
+                  low, high);
+    bool fixed = !(*high > *low * (1 + 1e-9));
+    *low = fixed ? placed->flow : fmin(*low, placed->flow);
+    *high = fixed ? placed->flow : fmax(*high, placed->flow);
+}
+
 double sp_least_flow(const sp_search *search, const sp_placed *placed)
 {
     double low, high;
-    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type, placed->nozzle.pressure,
-                  &low, &high);
-    return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
+    set_flows(search, placed, &low, &high);
+    return low;
 }
 
 double sp_most_flow(const sp_search *search, const sp_placed *placed)
 {
     double low, high;
-    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type, placed->nozzle.pressure,
-                  &low, &high);
-    return high > low * (1 + 1e-9) ? fmax(high, placed->flow) : placed->flow;
+    set_flows(search, placed, &low, &high);
+    return high;
 }
 
 void sp_turn_down(const sp_search *search, sp_partial *partial, double water)

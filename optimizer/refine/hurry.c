@@ -107,7 +107,7 @@ static bool walk_closest(sp_refining *refining)
 static bool try_closest(sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;
-    bool saves = aims_at_target(front) && front->measured.area >= front->target;
+    bool saves = sp_front_saves(front);
     double most = saves ? front->measured.outlay * (1 - SAVED_LEAST) : INFINITY;
     size_t count;
     sp_ranked *ranked = rank_close(front, &count);
@@ -155,6 +155,6 @@ bool sp_refine_hurried(sp_refining *refining)
             return false;
         gained = pass == 0 || !sp_point_same(&before, &front->measured);
     }
-    bool saves = aims_at_target(front) && front->measured.area >= front->target;
+    bool saves = sp_front_saves(front);
     return !saves || (sp_save_water(refining) && sharpen_closest(refining));
 }

@@ -165,7 +165,7 @@ static bool refine_all(sp_refining *refining)
     const sp_front *front = refining->front;
     if (!search_front_locally(refining))
         return false;
-    bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
+    bool saves = sp_front_saves(front);
     return recombine_front(refining) && (!saves || sp_save_water(refining)) && recombine_front(refining) &&
            sharpen_often(refining, saves);
 }

@@ -76,8 +76,7 @@ static double turned_up(const sp_search *search, const sp_partial *partial)
 double sp_best_budget(const sp_refining *refining)
 {
     const sp_front *front = refining->front;
-    bool wanting = front->objective == SP_OBJECTIVE_MAX_COVERAGE || front->measured.area < front->target;
-    return wanting ? turned_up(refining->search, &front->best) : front->best.outlay;
+    return sp_front_saves(front) ? front->best.outlay : turned_up(refining->search, &front->best);
 }
 
 bool sp_ask_more(sp_refining *refining, sp_trials *trials)

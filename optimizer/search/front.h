@@ -34,6 +34,12 @@ static inline const sp_partial *sp_front_partial(const sp_front *front, size_t i
     return i < front->by_water.count ? &front->by_water.entries[i].partial : &front->best;
 }
 
+/* Whether the best is to take less: it covers what is asked for. Else it is to cover more. */
+static inline bool sp_front_saves(const sp_front *front)
+{
+    return front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
+}
+
 /* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
 /* Measures the layout, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
