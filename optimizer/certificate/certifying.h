@@ -8,9 +8,10 @@
 
 /* A layout of the front, or the proposal. */
 typedef struct {
-    size_t water;  /* units that it may take */
-    double found;  /* m² that a layout found with no more water covers */
-    bool had_turn; /* in this pass */
+    size_t water;   /* units that it may take */
+    double found;   /* m² that a layout found with no more water covers */
+    bool had_turn;  /* in this pass */
+    bool looked_at; /* its layouts, in this turn */
 } sp_certified_point;
 
 /* How much may be done for bounds. Work is counted in words of 64 texels, as sp_tuples counts it. */

@@ -2,12 +2,13 @@
 
 #include <math.h>
 
-#define WATER_NEAR 1.25 /* times less water is so near that the same multipliers say something */
-#define WATER_LIKE 1.1  /* the same, and need not be priced for again */
-#define OPEN_LEAST 1e-3 /* gap of a point of the front that is worth a turn */
-#define GAPS_MOST 6     /* points that are priced for between others */
-#define GAP_LEAST 0.15  /* of the bound, that this must promise */
-#define REACH 1.6       /* times a gap's water, up to which its prices are to hold */
+#define WATER_NEAR 1.25  /* times less water is so near that the same multipliers say something */
+#define WATER_LIKE 1.1   /* the same, and need not be priced for again */
+#define WATER_SAME 1.015 /* the same, and what one's layouts are bounded by does for both */
+#define OPEN_LEAST 1e-3  /* gap of a point of the front that is worth a turn */
+#define GAPS_MOST 6      /* points that are priced for between others */
+#define GAP_LEAST 0.15   /* of the bound, that this must promise */
+#define REACH 1.6        /* times a gap's water, up to which its prices are to hold */
 
 /* What of the bound at a point nothing found comes up to. */
 static double open_at(const sp_certifying *c, size_t i)
@@ -43,20 +44,33 @@ static size_t next_point(const sp_certifying *c)
     return found;
 }
 
-/* A turn of a point and of those that are like it. */
+/* True where the layouts of as much water, or next to no more, were looked at in this turn. */
+static bool is_looked_at(const sp_certifying *c, size_t i)
+{
+    for (size_t k = 0; k < c->point_count; k++)
+        if (c->points[k].looked_at && is_like(c, i, k, WATER_SAME))
+            return true;
+    return false;
+}
+
+/* A turn of a point and of those that are like it, those of most water first. */
 static bool take_turn(sp_certifying *c, size_t i, sp_effort most, double *work, sp_error *error)
 {
     const sp_certified_point *own = &c->points[i];
     *work += sp_pricing_work(c, most.rounds);
     if (!sp_lower_open_bound(c, own->water, open_at(c, i), most.rounds, error))
         return false;
-    for (size_t k = 0; k < c->point_count && c->bound.complete; k++) {
+    for (size_t k = 0; k < c->point_count; k++)
+        c->points[k].looked_at = false;
+    for (size_t k = c->point_count; k-- > 0 && c->bound.complete;) {
         sp_certified_point *like = &c->points[k];
         if (!like->water || like->had_turn || !is_like(c, k, i, WATER_NEAR))
             continue;
         like->had_turn = is_like(c, k, i, WATER_LIKE);
-        if (open_at(c, k) > OPEN_LEAST &&
-            !sp_look_at_layouts(c, like->water, like->found, OPEN_LEAST, most, work, error))
+        if (open_at(c, k) <= OPEN_LEAST || is_looked_at(c, k))
+            continue;
+        like->looked_at = true;
+        if (!sp_look_at_layouts(c, like->water, like->found, OPEN_LEAST, most, work, error))
             return false;
     }
     c->points[i].had_turn = true;
