@@ -10,6 +10,8 @@
 #include <sprayplan/setup.h>
 #include <sprayplan/trace.h>
 
+#include <math.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -225,12 +227,19 @@ typedef struct {
     sp_vec3 direction; /* unit, at the nozzle, world coordinates */
     double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
     double speed;      /* at impact, m/s */
-    double incidence;  /* rad */
+    double towards;    /* of it, against the patch's normal, m/s */
+    double along;      /* of it, in the patch's plane, m/s */
     double breadth;    /* rad, of the patch as seen from the nozzle */
     double time;       /* s, that it takes */
     sp_vec3 point;     /* m, where it arrives */
     sp_vec3 normal;    /* unit, as the patch's */
 } sp_arrival;
+
+/* rad from the patch's normal. Not held in an arrival, since few of those that are found are ever asked for it. */
+static inline double sp_arrival_incidence(const sp_arrival *arrival)
+{
+    return atan2(arrival->along, arrival->towards);
+}
 
 typedef struct {
     size_t count;

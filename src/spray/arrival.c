@@ -35,8 +35,9 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
     arrival->normal = target->normal;
     arrival->transfer = against / flight->spread;
     arrival->speed = sp_length(flight->velocity);
-    arrival->incidence = sp_incidence(flight->velocity, target->normal, against);
-    arrival->passes = sp_impact_passes(criterion, arrival->speed, arrival->incidence);
+    arrival->towards = against;
+    arrival->along = sp_speed_along(flight->velocity, target->normal);
+    arrival->passes = sp_is_fast_enough(criterion, arrival->speed) && sp_arrives_steeply(criterion, arrival);
     return true;
 }
 

@@ -32,8 +32,9 @@ static bool weigh(const inquiry *own, const sp_arrival *arrival, sp_wetting *wet
     if (arrival->passes)
         sp_wetting_add(wetting, flux, criterion->flux, arrival->part, share,
                        edge ? sp_emitter_holds(emitter, arrival->direction) : share > 0);
-    return is_close(arrival->speed, criterion->impact_speed) || is_close(arrival->incidence, criterion->incidence) ||
-           is_close(flux, criterion->flux) || (edge && fabs(sp_emitter_margin(emitter, arrival->direction)) <= CLOSE);
+    return is_close(arrival->speed, criterion->impact_speed) ||
+           is_close(sp_arrival_incidence(arrival), criterion->incidence) || is_close(flux, criterion->flux) ||
+           (edge && fabs(sp_emitter_margin(emitter, arrival->direction)) <= CLOSE);
 }
 
 static void find_close(const inquiry *own)

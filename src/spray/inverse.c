@@ -21,8 +21,8 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         assert(mean >= 0 && share <= 1);
         left -= mean;
         if (share > 0)
-            sp_deposit(tally->deposits, first->patch, mean, arrival->part, arrival->speed, arrival->incidence,
-                       setup->liquid.density);
+            sp_deposit(tally->deposits, first->patch, mean, arrival->part, arrival->speed,
+                       sp_arrival_incidence(arrival), setup->liquid.density);
         if (!arrival->passes)
             continue;
         counted += mean;
