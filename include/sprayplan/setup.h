@@ -121,6 +121,8 @@ typedef struct {
 /* The defaults of a scene file, with no mesh. */
 SP_API sp_setup sp_setup_default(void);
 
+/* True where any surface throws back liquid that hits it. */
+SP_API bool sp_setup_throws_back(const sp_setup *setup);
 /* A point of the setup (m) in the coordinates that are read and written. */
 SP_API sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point);
 /* The nearest point of the setup (m) that those coordinates tell from others: a layout of such points covers the same

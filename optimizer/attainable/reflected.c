@@ -60,14 +60,6 @@ static void follow_site(const sp_search *search, const sp_site *site, size_t lau
     }
 }
 
-static bool anything_reflects(const sp_setup *setup)
-{
-    for (size_t i = 0; i < setup->mesh->part_count; i++)
-        if (setup->surfaces[i].restitution > 0 && setup->surfaces[i].rebound > 0)
-            return true;
-    return false;
-}
-
 /* Marks the coarse patches that reflected jets of all sites meet, as far as time goes. */
 static void follow_all(const sp_search *search, sp_deadline *deadline, bool *met)
 {
@@ -92,7 +84,7 @@ bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_deadline *
     size_t patches = sp_evaluator_patches(fine)->count, unseen = 0;
     for (size_t p = 0; p < patches; p++)
         unseen += reasons[p] == SP_REASON_NO_LINE;
-    if (!unseen || !anything_reflects(sp_evaluator_setup(fine)))
+    if (!unseen || !sp_setup_throws_back(sp_evaluator_setup(fine)))
         return true;
     bool *met = calloc(search->patch_count ? search->patch_count : 1, sizeof *met);
     if (!met)

@@ -3,17 +3,9 @@
 
 #define REFLECTIONS 3
 
-static bool anything_reflects(const sp_setup *setup)
-{
-    for (size_t i = 0; i < setup->mesh->part_count; i++)
-        if (setup->surfaces[i].restitution > 0)
-            return true;
-    return false;
-}
-
 static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
 {
-    bool reflects = fidelity->reflections != 0 && anything_reflects(setup);
+    bool reflects = fidelity->reflections != 0 && sp_setup_throws_back(setup);
     if (fidelity->method == SP_METHOD_INVERSE && fidelity->reflections > 0)
         return sp_fail(
             error, SP_ERROR_INPUT, NULL, 0, 0,

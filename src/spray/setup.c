@@ -32,6 +32,14 @@ double sp_sweep_reach(const sp_sweep *sweep)
     return fmax(sp_length(sweep->from), sp_length(sweep->to));
 }
 
+bool sp_setup_throws_back(const sp_setup *setup)
+{
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        if (setup->surfaces[i].restitution > 0 && setup->surfaces[i].rebound > 0)
+            return true;
+    return false;
+}
+
 sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point)
 {
     return sp_add(point, setup->origin);

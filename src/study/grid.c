@@ -16,12 +16,8 @@ static const int bounce_steps[BOUNCES] = {0, 1, 2, 4};
 
 bool sp_study_reflects(const sp_setup *setup)
 {
-    if (setup->fidelity.reflections == 0 || setup->fidelity.method == SP_METHOD_INVERSE)
-        return false;
-    for (size_t i = 0; i < setup->mesh->part_count; i++)
-        if (setup->surfaces[i].restitution > 0)
-            return true;
-    return false;
+    return setup->fidelity.reflections != 0 && setup->fidelity.method != SP_METHOD_INVERSE &&
+           sp_setup_throws_back(setup);
 }
 
 sp_trajectory sp_study_reference_trajectory(const sp_setup *setup)
