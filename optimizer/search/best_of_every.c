@@ -65,13 +65,21 @@ static bool collect(const sp_search *search, const sp_front *front, const sp_eve
 }
 
 bool sp_best_of_every_layout(const sp_search *search, const sp_front *front, double budget, sp_deadline *deadline,
-                             sp_partial **partials, size_t *count, sp_error *error)
+                             sp_partial **partials, size_t *count, bool *whole, sp_error *error)
 {
     *partials = NULL;
     *count = 0;
     sp_every_layout every;
-    bool done = sp_every_layout_create(search, front->fine, budget, deadline, "front", &every, error) &&
-                (!every.count || collect(search, front, &every, partials, count, error));
+    const sp_evaluator *fine = front->fine, *coarse = search->coarse;
+    bool inverse = sp_evaluator_fidelity(fine)->method == SP_METHOD_INVERSE;
+    bool done = sp_every_layout_create(search, fine, budget, deadline, "front", &every, error);
+    *whole = every.count && every.whole;
+    if (done && !every.count && inverse && coarse != fine) {
+        /* too much to keep of so many patches; on fewer it is as near as the search comes */
+        sp_every_layout_free(&every);
+        done = sp_every_layout_create(search, coarse, budget, deadline, "front", &every, error);
+    }
+    done = done && (!every.count || collect(search, front, &every, partials, count, error));
     sp_every_layout_free(&every);
     return done;
 }

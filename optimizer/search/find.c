@@ -288,13 +288,13 @@ static bool fill_front(const sp_finding *finding, const sp_partial *greedy)
     return done;
 }
 
-/* Whatever was found so far, the best of all layouts where they are few. */
-static bool try_every_layout(const sp_finding *finding)
+/* The best of all layouts where they are few; *whole: nothing betters these. */
+static bool try_every_layout(const sp_finding *finding, bool *whole)
 {
     sp_partial *partials;
     size_t count;
     bool done = sp_best_of_every_layout(finding->search, finding->front, finding->budget, finding->deadline, &partials,
-                                        &count, finding->error) &&
+                                        &count, whole, finding->error) &&
                 sp_front_measure_all(finding->front, finding->search, partials, count, finding->error);
     for (size_t i = 0; i < count; i++)
         sp_partial_free(&partials[i]);
@@ -353,23 +353,31 @@ bool sp_find_steps(const sp_search *search, const sp_partial *first, sp_deadline
     return true;
 }
 
+/* What other greedy orders and exchanges make of the pool. */
+static bool search_pool(sp_finding *finding, const sp_partial *first)
+{
+    sp_deadline *deadline = finding->deadline;
+    sp_pool_gains gains;
+    if (!sp_deadline_goes_on(deadline, "exchange", 0))
+        return true;
+    if (!sp_pool_gains_create(finding->search, finding->pool, &gains, finding->error))
+        return false;
+    bool done = true;
+    finding->gains = &gains;
+    for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
+        done = other_partial(finding, i == 0 ? 0.5 : 0);
+    done = done && shrink_best(finding) && sp_deadline_stage(deadline, "exchange", finding->error) &&
+           fill_front(finding, first) &&
+           sp_find_fewest(finding->search, &gains, first, finding->budget, deadline, finding->front, finding->error);
+    sp_pool_gains_free(&gains);
+    return done;
+}
+
 bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
                   const sp_partial *first, sp_error *error)
 {
     sp_finding finding = finding_of(search, deadline, front, pool, error);
-    sp_pool_gains gains;
-    if (!sp_deadline_goes_on(deadline, "exchange", 0))
-        return true;
-    if (!sp_pool_gains_create(search, pool, &gains, error))
-        return false;
-    bool done = true;
-    finding.gains = &gains;
-    for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
-        done = other_partial(&finding, i == 0 ? 0.5 : 0);
-    done = done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
-           fill_front(&finding, first) &&
-           sp_find_fewest(search, &gains, first, finding.budget, deadline, front, error) &&
-           try_every_layout(&finding) && sp_deadline_stage(deadline, "front", error);
-    sp_pool_gains_free(&gains);
-    return done;
+    bool whole = false;
+    return try_every_layout(&finding, &whole) && (whole || search_pool(&finding, first)) &&
+           sp_deadline_stage(deadline, "front", error);
 }
