@@ -79,7 +79,7 @@ bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp
         uint64_t jets = jets_for(evaluator, jets_flown[i]);
         double start = sp_deadline_elapsed(deadline);
         sp_coverage_destroy(forward);
-        forward = sp_evaluate_forward(evaluator, layout, jets, &failure);
+        forward = sp_evaluate_forward(evaluator, layout, 0, jets, &failure);
         if (!forward) {
             *check = (sp_forward_check){0};
             break;

@@ -23,6 +23,7 @@
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
 #define SEARCH_HURRIED 0.95
+#define SETTING 0.05 /* more, for what steps allow of all that was found */
 /* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
@@ -218,6 +219,22 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
            (hurried || write_greedy(placement, proposal, error));
     sp_partial_free(&first);
     return done;
+}
+
+/* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set. */
+static bool improve(sp_placement *placement, sp_error *error)
+{
+    const sp_search *search = &placement->search;
+    sp_deadline *deadline = &placement->deadline;
+    sp_front *front = &placement->front;
+    if (!sp_refine_best(search, &placement->pool, deadline, front, error) ||
+        !sp_deadline_stage(deadline, "refine", error) ||
+        !sp_fill_front(search, &placement->pool, deadline, front, error) ||
+        !sp_fill_front_by_jets(search, &placement->pool, deadline, front, error) ||
+        !sp_deadline_stage(deadline, "fill", error))
+        return false;
+    sp_deadline_allow(deadline, fmin(1, search_share(placement->options) + SETTING));
+    return sp_set_front(search, deadline, front, error);
 }
 
 /* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
@@ -434,12 +451,7 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *giv
     sp_placement placement = {.fine = evaluator, .options = options, .deadline = sp_deadline_start(&options->run)};
     sp_deadline_allow(&placement.deadline, search_share(options));
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
-                find(&placement, proposal, error) && is_sound(&placement, error) &&
-                sp_refine_best(&placement.search, &placement.pool, &placement.deadline, &placement.front, error) &&
-                sp_deadline_stage(&placement.deadline, "refine", error) &&
-                sp_fill_front(&placement.search, &placement.pool, &placement.deadline, &placement.front, error) &&
-                sp_deadline_stage(&placement.deadline, "fill", error) &&
-                sp_set_front(&placement.search, &placement.deadline, &placement.front, error) &&
+                find(&placement, proposal, error) && is_sound(&placement, error) && improve(&placement, error) &&
                 is_sound(&placement, error) && propose(&placement, proposal, error) &&
                 sp_deadline_stage(&placement.deadline, "refine", error) && confirm(&placement, proposal, error) &&
                 find_remedies(&placement, proposal, error) && check_forward(&placement, proposal, error) &&

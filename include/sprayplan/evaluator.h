@@ -51,6 +51,8 @@ SP_API void sp_evaluator_destroy(sp_evaluator *evaluator);
 
 SP_API const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 SP_API const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
+/* True where its figures count liquid that walls throw back. */
+SP_API bool sp_evaluator_counts_thrown_back(const sp_evaluator *evaluator);
 /* Why settings that the setup left to auto are as they are, a clause of plain text each; "" where the setup itself says
  * or nothing was measured. */
 #define SP_WHY 160
@@ -176,11 +178,12 @@ SP_API sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_laun
 
 /* Evaluates by the scene's own method. NULL on error. */
 SP_API sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
-/* By one method whatever the scene asks, both to the first impact, so that each checks the other. The nozzles share the
- * jets by their flows; a texel that none of few jets meets looks dry, and one that few meet is covered whole. */
+/* By one method whatever the scene asks; both to the first impact, with no `reflections` (0 or more), so that each
+ * checks the other. The nozzles share the jets by their flows; a texel that none of few jets meets looks dry, and one
+ * that few meet is covered whole. */
 SP_API sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
-SP_API sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
-                                        sp_error *error);
+SP_API sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, int reflections,
+                                        uint64_t jets, sp_error *error);
 /* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle (which a cluster's
  * patterns share) are flown to their first impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
 SP_API bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,

@@ -211,6 +211,15 @@ static void doubt(const sp_search *search, size_t patches, sp_reason *reasons)
             reasons[p] = SP_REASON_UNKNOWN;
 }
 
+/* Where what walls throw back counts, it may cover whatever any liquid gets to, and what first impacts are too few,
+ * too slow or too slanted for. */
+static void allow_thrown_back(size_t patches, sp_reason *reasons)
+{
+    for (size_t p = 0; p < patches; p++)
+        if (reasons[p] != SP_REASON_NO_LINE && reasons[p] != SP_REASON_UNKNOWN)
+            reasons[p] = SP_REASON_ATTAINABLE;
+}
+
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error)
 {
@@ -239,6 +248,8 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
                                         (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
                                                : sp_bounces(fine, search, deadline, reasons, error))));
         doubt(search, sp_evaluator_patches(fine)->count, reasons);
+        if (sp_evaluator_counts_thrown_back(fine))
+            allow_thrown_back(sp_evaluator_patches(fine)->count, reasons);
     }
     free(scopes);
     sp_coverage_destroy(kept);

@@ -10,7 +10,8 @@
  * best poses as number, water and ports allow could together cover it; with `single` one pose alone; and where not,
  * why. A patch of which less than half is reached, its point not, is SP_REASON_NO_LINE; one that the kept nozzles cover
  * half of is attained. Of film, of types that do not spray as densely all over and of goods that move candidate poses
- * are asked as they stand, on the search's patches. Ends early, the rest unknown, where the run is cancelled. */
+ * are asked as they stand, on the search's patches. Where `fine` counts what walls throw back, all that any liquid
+ * gets to is taken to be attainable. Ends early, the rest unknown, where the run is cancelled. */
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error);
 

@@ -178,6 +178,16 @@ bool sp_partial_add(const sp_search *search, sp_partial *partial, sp_placed plac
     return true;
 }
 
+bool sp_partial_add_copy(const sp_search *search, sp_partial *partial, const sp_placed *from, sp_error *error)
+{
+    sp_placed placed = *from;
+    placed.field = malloc((search->field_count + 1) * sizeof *placed.field);
+    if (!placed.field)
+        return sp_fail_memory(error);
+    memcpy(placed.field, from->field, search->field_count * sizeof *placed.field);
+    return sp_partial_add(search, partial, placed, error);
+}
+
 bool sp_partial_add_pose(const sp_search *search, sp_partial *partial, sp_pose pose, sp_error *error)
 {
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, sp_evaluator_setup(search->coarse)->up);

@@ -37,6 +37,8 @@ bool sp_partial_copy(const sp_search *search, const sp_partial *from, sp_partial
 void sp_partial_free(sp_partial *partial);
 /* Adds a nozzle and takes its field over, also on failure. */
 bool sp_partial_add(const sp_search *search, sp_partial *partial, sp_placed placed, sp_error *error);
+/* The same with a copy of a nozzle of another one. */
+bool sp_partial_add_copy(const sp_search *search, sp_partial *partial, const sp_placed *from, sp_error *error);
 bool sp_partial_add_pose(const sp_search *search, sp_partial *partial, sp_pose pose, sp_error *error);
 void sp_partial_remove(const sp_search *search, sp_partial *partial, size_t i);
 /* Removes item i and hands it over. */

@@ -1,19 +1,23 @@
 #include "search/fill.h"
 
+#include "search/jet_fields.h"
 #include "search/pareto.h"
-#include "search/partial_enumeration.h"
 
 #include <stdlib.h>
 
+#define POSES_FEW 250    /* of the pool, that jets are flown from all */
 #define GAIN_LEAST 0.003 /* of what is covered, that a layout must add on the search's patches to be measured */
 
 typedef struct {
     const sp_search *search;
     const sp_pool *pool;
+    const sp_placed **nozzles; /* of the front's layouts, one's after the other's, and what else there is */
     sp_deadline *deadline;
     sp_front *front;
-    sp_coverage_matrix matrix; /* the pool's rows, then those of the front's layouts, one's after the other's */
+    bool by_jets;              /* the matrix tells what jets find, which the nozzles' own fields do not */
+    sp_coverage_matrix matrix; /* the pool's rows, then the nozzles' */
     sp_pareto pareto;
+    double *known; /* [front->by_water.count], m² that each of its layouts covers, as `covers` tells */
     sp_error *error;
 } filling;
 
@@ -34,11 +38,20 @@ static bool create_ranges(filling *f)
     return done;
 }
 
+/* m² of the search's patches; of the matrix's sample, where only that tells what jets find. */
+static double covers(const filling *f, const sp_selection *selection, const sp_partial *partial)
+{
+    return f->by_jets ? selection->covered : partial->covered;
+}
+
 /* The front's layouts, from which the search begins. */
 static bool enter_front(filling *f)
 {
     const sp_front_list *list = &f->front->by_water;
     sp_selection selection;
+    f->known = malloc((list->count + 1) * sizeof *f->known);
+    if (!f->known)
+        return sp_fail_memory(f->error);
     if (!sp_selection_create(&f->matrix, &selection, f->error))
         return false;
     uint32_t row = (uint32_t)f->pool->count;
@@ -49,19 +62,36 @@ static bool enter_front(filling *f)
             if (count <= SP_SELECTION_MOST)
                 sp_selection_add(&selection, row);
         sp_pareto_enter(&f->pareto, &selection);
+        f->known[i] = covers(f, &selection, &list->entries[i].partial);
     }
     sp_selection_free(&selection);
     return true;
 }
 
-/* The most that the front's layouts of no more outlay cover of the search's patches. */
-static double known_to_cover(const sp_front *front, double outlay)
+/* The most that the front's layouts of no more outlay cover. */
+static double known_to_cover(const filling *f, double outlay)
 {
     double covered = 0;
-    const sp_front_list *list = &front->by_water;
+    const sp_front_list *list = &f->front->by_water;
     for (size_t i = 0; i < list->count && list->entries[i].point.outlay <= outlay * (1 + SP_ROUNDING); i++)
-        covered = fmax(covered, list->entries[i].partial.covered);
+        covered = fmax(covered, f->known[i]);
     return covered;
+}
+
+/* The selection as a partial layout of the search. */
+static bool build(const filling *f, const sp_selection *selection, sp_partial *partial)
+{
+    size_t pool = f->pool->count;
+    if (!sp_partial_create(f->search, partial, f->error))
+        return false;
+    bool done = true;
+    for (size_t i = 0; done && i < selection->count; i++)
+        done = selection->row[i] < pool
+                   ? sp_partial_add_pose(f->search, partial, f->pool->items[selection->row[i]], f->error)
+                   : sp_partial_add_copy(f->search, partial, f->nozzles[selection->row[i] - pool], f->error);
+    if (!done)
+        sp_partial_free(partial);
+    return done;
 }
 
 /* Layouts of the search as partial ones, where they cover clearly more than the front does for as much. All of them
@@ -77,8 +107,8 @@ static bool build_all(const filling *f, sp_partial *partials, size_t *count)
         if (!sp_pareto_counts(&f->pareto, i))
             continue;
         sp_selection_set(&selection, f->pareto.layouts[i].row, f->pareto.layouts[i].count);
-        done = sp_selection_partial(&selection, partial, f->error);
-        if (done && partial->covered > known_to_cover(f->front, partial->outlay) * (1 + GAIN_LEAST))
+        done = build(f, &selection, partial);
+        if (done && covers(f, &selection, partial) > known_to_cover(f, partial->outlay) * (1 + GAIN_LEAST))
             (*count)++;
         else if (done)
             sp_partial_free(partial);
@@ -99,6 +129,18 @@ static bool measure_all(const filling *f)
     return done;
 }
 
+/* With the matrix of `search`, whose pool and nozzles [count] are the filling's, or the same as jets find them. */
+static bool fill(filling *f, const sp_search *search, const sp_placed *const *nozzles, size_t count)
+{
+    bool done = sp_coverage_matrix_create(search, f->pool, nozzles, count, &f->matrix, f->error) && create_ranges(f) &&
+                enter_front(f) && sp_pareto_search(&f->matrix, f->deadline, "fill", &f->pareto, f->error) &&
+                (!sp_deadline_goes_on(f->deadline, "fill", 0.5) || measure_all(f));
+    sp_pareto_free(&f->pareto);
+    sp_coverage_matrix_free(&f->matrix);
+    free(f->known);
+    return done;
+}
+
 bool sp_fill_front(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
                    sp_error *error)
 {
@@ -106,13 +148,53 @@ bool sp_fill_front(const sp_search *search, const sp_pool *pool, sp_deadline *de
     size_t count;
     if (!front->by_water.count || !sp_deadline_goes_on(deadline, "fill", 0))
         return true;
-    const sp_placed **nozzles = sp_front_nozzles(front, &count);
-    bool done = (nozzles || sp_fail_memory(error)) &&
-                sp_coverage_matrix_create(search, pool, nozzles, count, &f.matrix, error) && create_ranges(&f) &&
-                enter_front(&f) && sp_pareto_search(&f.matrix, deadline, "fill", &f.pareto, error) &&
-                (!sp_deadline_goes_on(deadline, "fill", 0.5) || measure_all(&f));
-    sp_pareto_free(&f.pareto);
-    sp_coverage_matrix_free(&f.matrix);
-    free(nozzles);
+    f.nozzles = sp_front_nozzles(front, &count);
+    bool done = (f.nozzles || sp_fail_memory(error)) && fill(&f, search, f.nozzles, count);
+    free(f.nozzles);
+    return done;
+}
+
+/* Of the front's layouts, and behind them those of `few`. */
+static const sp_placed **list_nozzles(const sp_front *front, const sp_partial *few, size_t *count)
+{
+    size_t own;
+    const sp_placed **nozzles = sp_front_nozzles(front, &own);
+    const sp_placed **all = nozzles ? realloc(nozzles, (own + few->count + 1) * sizeof *all) : NULL;
+    *count = own + few->count;
+    for (size_t i = 0; all && i < few->count; i++)
+        all[own + i] = &few->items[i];
+    if (!all)
+        free(nozzles);
+    return all;
+}
+
+/* The pool's poses, where they are few. */
+static bool place_few(const sp_search *search, const sp_pool *pool, sp_partial *few, sp_error *error)
+{
+    bool done = sp_partial_create(search, few, error);
+    for (size_t i = 0; done && pool->count <= POSES_FEW && i < pool->count; i++)
+        done = sp_partial_add_pose(search, few, pool->items[i], error);
+    return done;
+}
+
+bool sp_fill_front_by_jets(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                           sp_error *error)
+{
+    const sp_pool none = {0};
+    filling f = {
+        .search = search, .pool = &none, .deadline = deadline, .front = front, .by_jets = true, .error = error};
+    sp_jet_fields fields = {0};
+    sp_partial few = {0};
+    size_t count;
+    bool moves = sp_evaluator_setup(front->fine)->sweep.speed > 0;
+    if (moves || !sp_evaluator_counts_thrown_back(front->fine) || !sp_deadline_goes_on(deadline, "fill", 0.5))
+        return true;
+    bool done = place_few(search, pool, &few, error) &&
+                ((f.nozzles = list_nozzles(front, &few, &count)) || sp_fail_memory(error)) &&
+                sp_jet_fields_create(search, front->fine, f.nozzles, count, deadline, &fields, error) &&
+                (!fields.count || fill(&f, &fields.search, fields.flown, count));
+    sp_jet_fields_free(&fields);
+    sp_partial_free(&few);
+    free(f.nozzles);
     return done;
 }

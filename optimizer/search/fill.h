@@ -9,5 +9,9 @@
  * what covers clearly more than the front has for as much. */
 bool sp_fill_front(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
                    sp_error *error);
+/* The same of the front's nozzles, and of the pool's where they are few, where walls throw back liquid that the search
+ * knows nothing of: as jets find it, layouts of fewer nozzles, or of others, may do. */
+bool sp_fill_front_by_jets(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                           sp_error *error);
 
 #endif

@@ -307,16 +307,6 @@ bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budg
     return done;
 }
 
-static bool add_copy(const sp_search *search, const sp_placed *from, sp_partial *partial, sp_error *error)
-{
-    sp_placed placed = *from;
-    placed.field = malloc((search->field_count + 1) * sizeof *placed.field);
-    if (!placed.field)
-        return sp_fail_memory(error);
-    memcpy(placed.field, from->field, search->field_count * sizeof *placed.field);
-    return sp_partial_add(search, partial, placed, error);
-}
-
 bool sp_selection_partial(const sp_selection *selection, sp_partial *partial, sp_error *error)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
@@ -327,7 +317,7 @@ bool sp_selection_partial(const sp_selection *selection, sp_partial *partial, sp
         size_t row = selection->row[i];
         done = row < matrix->pool->count
                    ? sp_partial_add_pose(matrix->search, partial, matrix->pool->items[row], error)
-                   : add_copy(matrix->search, matrix->others[row - matrix->pool->count], partial, error);
+                   : sp_partial_add_copy(matrix->search, partial, matrix->others[row - matrix->pool->count], error);
     }
     if (!done)
         sp_partial_free(partial);

@@ -391,9 +391,10 @@ static void print_own_better(const sp_result *result, const sp_figures *figures)
 static void print_proofs(const sp_result *result)
 {
     if (sp_result_counts_thrown_back(result))
-        printf("\nThe coverage of the layouts counts liquid that walls throw back. The search ranks layouts without "
-               "it, and "
-               "what is counted\nagain and proved below is without it.\n");
+        printf(
+            "\nThe coverage of the layouts counts liquid that walls throw back. The search goes by first impacts and "
+            "puts the nozzles\nthat it found together anew with it; what is counted again and proved below is "
+            "without it.\n");
     if (result->proposal && !sp_result_has_alternatives(result)) {
         print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);

@@ -186,8 +186,8 @@ static void add_own_better(const sp_page *page, sp_text *text)
     }
     if (sp_result_counts_thrown_back(page->result))
         sp_text_add(text, "<p class=\"note\" id=\"thrown-back\">The coverage of the layouts counts liquid that walls "
-                          "throw back. The search ranks layouts without it, and what is counted again and proved "
-                          "below is without it.</p>\n");
+                          "throw back. The search goes by first impacts and puts the nozzles that it found together "
+                          "anew with it; what is counted again and proved below is without it.</p>\n");
 }
 
 void sp_page_headline(const sp_page *page, sp_text *text)

@@ -170,6 +170,11 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     return true;
 }
 
+bool sp_evaluator_counts_thrown_back(const sp_evaluator *evaluator)
+{
+    return evaluator && evaluator->fidelity.reflections > 0 && sp_setup_throws_back(&evaluator->setup);
+}
+
 void sp_evaluator_destroy(sp_evaluator *evaluator)
 {
     if (!evaluator)

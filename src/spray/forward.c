@@ -335,7 +335,8 @@ sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *la
     return evaluate(evaluator, layout, evaluator->fidelity.reflections, 0, able, error);
 }
 
-sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_error *error)
+sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, uint64_t jets,
+                                 sp_error *error)
 {
     if (!evaluator || !layout)
         return NULL;
@@ -343,8 +344,13 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: no jets found, expected at least 1");
         return NULL;
     }
+    if (reflections < 0) {
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: %d reflections found, expected 0 or more",
+                reflections);
+        return NULL;
+    }
     if (!sp_layout_is_whole(layout, error))
         return NULL;
     double flow = sp_layout_flow(layout, &evaluator->setup.liquid);
-    return evaluate(evaluator, layout, 0, flow / (double)jets, NULL, error);
+    return evaluate(evaluator, layout, reflections, flow / (double)jets, NULL, error);
 }

@@ -61,6 +61,8 @@ size_t sp_words_notes(const sp_study *study, const char *notes[SP_STUDY_NOTES])
     if (study->passing)
         notes[count++] = "Goods are looked at in positions a texel apart at most, which vary with the texel alone; "
                          "jets are spread over the pass.";
+    if (study->place_count && study->reference.reflections > 0)
+        notes[count++] = "Placements are searched for and judged by first impacts, without what walls throw back.";
     return count;
 }
 

@@ -69,8 +69,9 @@ static void the_page_tells_it_too(void **state)
 static void what_the_search_does_not_count_is_told(void **state)
 {
     (void)state;
-    static const char told[] = "The coverage of the layouts counts liquid that walls throw back. The search ranks "
-                               "layouts without it, and what is counted";
+    static const char told[] = "The coverage of the layouts counts liquid that walls throw back. The search goes by "
+                               "first impacts and puts the nozzles\nthat it found together anew with it; what is "
+                               "counted again and proved below is without it.";
     char scene[sizeof room_yaml + 64];
     const char *at = strstr(room_yaml, "room.obj\n") + strlen("room.obj\n");
     snprintf(scene, sizeof scene, "%.*s    restitution: 0.5\n%s", (int)(at - room_yaml), room_yaml, at);

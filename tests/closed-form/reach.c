@@ -19,7 +19,8 @@ static void assert_in_order(const sp_evaluator *evaluator, const sp_reach *reach
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *a = &reach->arrivals[i];
         sp_flight flights[2];
-        int count = sp_flights(position, patches->point[a->patch], speed, sp_evaluator_gravity(evaluator, NULL), flights);
+        int count =
+            sp_flights(position, patches->point[a->patch], speed, sp_evaluator_gravity(evaluator, NULL), flights);
         bool second = i > 0 && reach->arrivals[i - 1].patch == a->patch, high = false;
         for (int k = 0; k < count; k++)
             high = sp_distance(flights[k].direction, a->direction) == 0 ? k == 1 : high;
@@ -27,7 +28,7 @@ static void assert_in_order(const sp_evaluator *evaluator, const sp_reach *reach
         assert_true(!second || high);
         sp_vec3 w = flights[high].velocity;
         assert_float_equal(a->speed, sp_length(w), 1e-12);
-        assert_float_equal(cos(a->incidence) * a->speed, fabs(sp_dot(w, patches->normal[a->patch])), 1e-9);
+        assert_float_equal(cos(sp_arrival_incidence(a)) * a->speed, fabs(sp_dot(w, patches->normal[a->patch])), 1e-9);
         assert_float_equal(a->transfer * flights[high].spread, fabs(sp_dot(w, patches->normal[a->patch])), 1e-9);
         assert_true(a->passes == (a->speed >= least));
     }

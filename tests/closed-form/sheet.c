@@ -39,7 +39,7 @@ static double covered_share(const char *what, sp_mesh *mesh, sp_trajectory traje
     sp_evaluator *evaluator = scene_evaluator(&s);
     sp_layout *layout = sp_layout_create(nozzle, 1, &error);
     sp_coverage *inverse = sp_evaluate_inverse(evaluator, layout, &error);
-    sp_coverage *forward = sp_evaluate_forward(evaluator, layout, MANY, &error);
+    sp_coverage *forward = sp_evaluate_forward(evaluator, layout, 0, MANY, &error);
     assert_no_error(&error);
     assert_non_null(inverse);
     assert_non_null(forward);

@@ -144,8 +144,8 @@ static void evaluations_keep_it(void **state)
     KEEPS(sp_evaluate, r->evaluator, nothing, &error);
     KEEPS(sp_evaluate_inverse, nothing, layout, &error);
     KEEPS(sp_evaluate_inverse, r->evaluator, nothing, &error);
-    KEEPS(sp_evaluate_forward, nothing, layout, 10, &error);
-    KEEPS(sp_evaluate_forward, r->evaluator, nothing, 10, &error);
+    KEEPS(sp_evaluate_forward, nothing, layout, 0, 10, &error);
+    KEEPS(sp_evaluate_forward, r->evaluator, nothing, 0, 10, &error);
     KEEPS(sp_evaluate_balance, nothing, layout, coverage, &error);
     KEEPS(sp_evaluate_balance, r->evaluator, nothing, coverage, &error);
     KEEPS(sp_evaluate_balance, r->evaluator, layout, nothing, &error);

@@ -62,7 +62,7 @@ static void layout_is_refused(const givens *g, const char *what, const char *fie
     sp_error errors[6] = {{0}};
     sp_track_gaps gaps;
     refused(what, field, sp_evaluate(evaluator, &g->layout, &errors[0]), &errors[0]);
-    refused(what, field, sp_evaluate_forward(evaluator, &g->layout, 100, &errors[1]), &errors[1]);
+    refused(what, field, sp_evaluate_forward(evaluator, &g->layout, 0, 100, &errors[1]), &errors[1]);
     refused(what, field, sp_evaluator_create_for(&g->setup, &g->layout, &errors[2]), &errors[2]);
     refused(what, field, sp_fitting_sheet_create(&g->layout, &g->setup, NULL, 0, &errors[3]), &errors[3]);
     if (!g->layout.nozzles)

@@ -56,7 +56,7 @@ static void expect_as_one(const job *j, bool forward)
     for (size_t count = 1; count <= COPIES; count += COPIES - 1) {
         sp_error error = {0};
         sp_layout *layout = copies_of(j, count);
-        sp_coverage *coverage = forward ? sp_evaluate_forward(j->room.evaluator, layout, 20000 * count, &error)
+        sp_coverage *coverage = forward ? sp_evaluate_forward(j->room.evaluator, layout, 0, 20000 * count, &error)
                                         : sp_evaluate_inverse(j->room.evaluator, layout, &error);
         assert_non_null(coverage);
         sp_contributions *parts = sp_contributions_create(j->room.evaluator, layout, coverage, &error);

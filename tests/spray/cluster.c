@@ -258,7 +258,8 @@ static void forward_agrees_with_inverse(void **state)
     sp_nozzle whole = hung(&type);
     sp_layout layout = {1, &whole};
     sp_error error = {0};
-    sp_coverage *inverse = cover(&r, &whole, 1), *forward = sp_evaluate_forward(r.evaluator, &layout, 200000, &error);
+    sp_coverage *inverse = cover(&r, &whole, 1),
+                *forward = sp_evaluate_forward(r.evaluator, &layout, 0, 200000, &error);
     assert_non_null(forward);
     if (!(inverse->fraction > 0.2 && inverse->fraction < 0.9))
         fail_msg("%g covered", inverse->fraction);
