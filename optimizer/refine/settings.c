@@ -238,8 +238,9 @@ bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *fron
     *front = (sp_front){.fine = before.fine, .objective = before.objective, .target = before.target};
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
     bool done = set_partials(search, &before.best, front, error);
+    /* what takes most water is nearest to the best, and comes first where time is short */
     for (int k = 0; k < 2; k++)
-        for (size_t i = 0; done && !deadline->cancelled && i < lists[k]->count; i++)
+        for (size_t i = lists[k]->count; done && i-- > 0 && sp_deadline_goes_on(deadline, "refine", 1);)
             done = set_partials(search, &lists[k]->entries[i].partial, front, error);
     sp_front_free(&before);
     return done && look_beside(search, deadline, front, error);
