@@ -171,9 +171,12 @@ SP_API double sp_nozzle_flow(const sp_nozzle *nozzle, const sp_fluid *liquid);
 SP_API double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid);
 /* v0 = Cv √(2 dp/rho), m/s (Bernoulli), unless the nozzle sets its own. */
 SP_API double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
-/* The opening angle in force, rad; of a cluster that of the smallest cone about the body's axis that would hold all its
- * patterns if they had no offsets. */
+/* The opening angle in force, rad, as sp_spray_create takes it: of what rotates its jet's; of a cluster that of the
+ * smallest cone about the body's axis that would hold all its patterns if they had no offsets. */
 SP_API double sp_nozzle_angle(const sp_nozzle *nozzle);
+/* What people are told as its angle, rad: the same, but of what rotates that of the smallest cone about its axis that
+ * holds all that it sprays. A jet of 1 deg says nothing of a head that sprays all round. */
+SP_API double sp_nozzle_cone(const sp_nozzle *nozzle);
 
 /* The nozzle's frame in world coordinates, right-handed and orthonormal. */
 typedef struct {

@@ -59,7 +59,7 @@ typedef struct {
     char *order_code, *url;                    /* owned; of its type */
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
-    double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
+    double roll, angle, pressure, flow, speed; /* rad, rad (sp_nozzle_cone), Pa, m³/s, m/s */
     double alone, lost;                        /* m², as sp_contributions */
     double cost;                               /* m³/s, of its mount; unknown where no mount costs anything */
     bool fitting;                              /* of an alternative: wants a fitting made for it, as sp_proposal */
@@ -264,8 +264,8 @@ SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_cla
 SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,
- * in numbers that read as just these values where a scene has them with these units, then what the sheet says, empty
- * where that is nothing:
+ * in numbers that read as just these values where a scene has them with these units, the angle as sp_nozzle_cone tells
+ * it, then what the sheet says, empty where that is nothing:
  * thread,insert,mounting,fitting,depth_mm,standoff_mm,fitting_x_mm,fitting_y_mm,fitting_height_mm,fitting_radius_mm,
  * fitting_azimuth_deg,tip_x_mm,tip_y_mm,tip_height_mm,tip_radius_mm,tip_azimuth_deg,tilt_deg,towards_deg,turn_deg,
  * circuit,circuit_l_min

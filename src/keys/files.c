@@ -57,7 +57,9 @@ static const sp_key nozzles_csv_keys[] = {
     {.name = "axis_y", .kind = SP_KEY_NUMBER, .says = "The same along y"},
     {.name = "axis_z", .kind = SP_KEY_NUMBER, .says = "The same along z"},
     {.name = "roll_deg", .kind = SP_KEY_NUMBER, .says = "About its axis"},
-    {.name = "angle_deg", .kind = SP_KEY_NUMBER, .says = "Opening angle"},
+    {.name = "angle_deg",
+     .kind = SP_KEY_NUMBER,
+     .says = "Opening angle as set; of clusters and what rotates that of the cone that holds all they spray"},
     {.name = "pressure_bar", .kind = SP_KEY_NUMBER, .says = "Difference across it"},
     {.name = "flow_l_min", .kind = SP_KEY_NUMBER, .says = "Of this liquid at this pressure"},
     {.name = "speed_m_s", .kind = SP_KEY_NUMBER, .says = "Exit speed"},
@@ -98,7 +100,7 @@ static const sp_key nozzles_csv_keys[] = {
 static const sp_block nozzles_csv = {
     "nozzles_csv", "columns of the sheet",
     "What a fitter welds, sets and orders, rounded to 1 mm and 0.1 deg, or finer where a `step` or a small part needs "
-    "it; place, axis and angle of the spray are layout.yaml's",
+    "it; place and axis of the spray are layout.yaml's, and its angle is not rounded",
     nozzles_csv_keys};
 
 static const sp_key swabs_keys[] = {

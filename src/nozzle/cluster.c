@@ -30,6 +30,12 @@ double sp_nozzle_angle(const sp_nozzle *nozzle)
     return 2 * reach_of(type);
 }
 
+double sp_nozzle_cone(const sp_nozzle *nozzle)
+{
+    double angle = sp_nozzle_angle(nozzle);
+    return sp_type_rotates(nozzle->type) ? 2 * sp_type_reach(nozzle->type, angle) : angle;
+}
+
 size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle)
 {
     return nozzle->type->pattern == SP_PATTERN_CLUSTER ? nozzle->type->member_count : 1;

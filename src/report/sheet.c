@@ -213,7 +213,7 @@ static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
     for (size_t i = 0; i < SOURCES; ++i)
         if (is_told(sheet, i))
             add_text(text, "td class=\"text\"", sources[i].of(nozzle->type));
-    add_number(text, sp_nozzle_angle(nozzle) * 180 / M_PI, sheet->decimals.angle_deg);
+    add_number(text, sp_nozzle_cone(nozzle) * 180 / M_PI, sheet->decimals.angle_deg);
     add_pressure(text, sheet, nozzle->pressure);
     add_flow(text, sheet, sp_nozzle_flow(nozzle, &sheet->setup->liquid));
     sp_text_add(text, "<td>%zu</td></tr>\n", row->circuit + 1);

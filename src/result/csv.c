@@ -80,7 +80,7 @@ static void add_exact(sp_text *text, const sp_nozzle *nozzle, const sp_setup *se
                    {nozzle->axis.y, 1},
                    {nozzle->axis.z, 1},
                    {nozzle->roll, units->deg},
-                   {sp_nozzle_angle(nozzle), units->deg},
+                   {sp_nozzle_cone(nozzle), units->deg},
                    {nozzle->pressure, units->bar},
                    {sp_nozzle_flow(nozzle, liquid), units->l_min},
                    {sp_nozzle_speed(nozzle, liquid), 1}};

@@ -68,7 +68,7 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
                                                   .position = sp_setup_outside(setup, nozzle->position),
                                                   .axis = nozzle->axis,
                                                   .roll = nozzle->roll,
-                                                  .angle = sp_nozzle_angle(nozzle),
+                                                  .angle = sp_nozzle_cone(nozzle),
                                                   .pressure = nozzle->pressure,
                                                   .flow = sp_nozzle_flow(nozzle, liquid),
                                                   .speed = sp_nozzle_speed(nozzle, liquid),

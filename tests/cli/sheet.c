@@ -2,6 +2,8 @@
  * that was written, and nozzles that do not pass their port. */
 #include "results.h"
 
+#include <math.h>
+
 static const char set_catalogue[] =
     "nozzles:\n"
     "  - {name: cone, pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar, angle_range: [60 deg, 130 deg],\n"
@@ -253,12 +255,66 @@ static void what_does_not_pass_is_refused(void **state)
     forget(&result);
 }
 
+static const char turning_catalogue[] =
+    "nozzles:\n"
+    "  - {name: fan, pattern: rotating, flow: 40 L/min, at: 3 bar,\n"
+    "     rotation: {jet: {pattern: flat_fan, angle: 120 deg, thickness: 6 deg, tilt: 60 deg}}}\n"
+    "  - {name: head, pattern: rotating, flow: 60 L/min, at: 4 bar,\n"
+    "     rotation: {jets: 4, gears: [3, 4], jet: {pattern: solid_stream, angle: 1 deg}}}\n";
+
+static const char turning_room[] =
+    "geometry: [{file: room.obj}]\n"
+    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+    "criterion: {flux: 1 L/min/m2}\n"
+    "catalogue: turning.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: fan, position: [0.3 m, 0.3 m, 0.9 m], axis: [0, 0, -1], pressure: 3 bar}\n"
+    "  - {name: N2, type: head, position: [0.6 m, 0.6 m, 0.7 m], axis: [0, 0, -1], pressure: 4 bar}\n"
+    "simulate: {texel: 200 mm}\n";
+
+/* Wherever its angle is told; and what is read back is the same nozzle. */
+static void what_turns_is_told_by_all_that_it_sprays(void **state)
+{
+    (void)state;
+    static const struct {
+        double degrees;
+        const char *cells, *fields, *end;
+    } told[] = {{240, "<td>240.0</td><td>3.00</td>", "N1,fan,0.3,0.3,0.9,0,0,-1,0,", "240.00\n"},
+                {360, "<td>360.0</td><td>4.00</td>", "N2,head,0.6,0.6,0.7,0,0,-1,0,", "360.00\n"}};
+    write_file("turning.yaml", turning_catalogue);
+    write_file("turns.yaml", turning_room);
+    ensure("turns", "simulate turns.yaml");
+    ensure("turned", "simulate turns/layout.yaml");
+    outcome check = run_program("check turns.yaml");
+    char *page = read_file("turns/report.html", NULL), *rows = read_file("turns/nozzles.csv", NULL);
+    json_t *result = json_file("turns/result.json"), *again = json_file("turned/result.json"),
+           *nozzles = json_object_get(layout_named(result, "manual"), "nozzles");
+    for (size_t i = 0; i < 2; i++) {
+        const char *cell = strstr(page, told[i].cells), *row = strstr(rows, told[i].fields);
+        if (!cell || !strstr(cell + 1, told[i].cells) || !strstr(check.out, told[i].end))
+            fail_msg("not twice %s in the page, or no %s in %s", told[i].cells, told[i].end, check.out);
+        assert_non_null(row);
+        assert_true(fabs(strtod(row + strlen(told[i].fields), NULL) - told[i].degrees) < 1e-9);
+        assert_true(fabs(number(json_array_get(nozzles, i), "angle_rad") * 180 / M_PI - told[i].degrees) < 1e-9);
+    }
+    assert_true(json_equal(nozzles, json_object_get(layout_named(again, "manual"), "nozzles")));
+    json_decref(result);
+    json_decref(again);
+    free(page);
+    free(rows);
+    forget(&check);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_placed_is_what_can_be_set),     cmocka_unit_test(the_page_has_the_sheet),
-        cmocka_unit_test(the_sheet_calls_mounts_by_their_names), cmocka_unit_test(what_is_kept_is_not_called_new),
-        cmocka_unit_test(what_does_not_pass_is_refused),         cmocka_unit_test(the_page_tells_settings),
+        cmocka_unit_test(what_is_placed_is_what_can_be_set),
+        cmocka_unit_test(the_page_has_the_sheet),
+        cmocka_unit_test(what_turns_is_told_by_all_that_it_sprays),
+        cmocka_unit_test(the_sheet_calls_mounts_by_their_names),
+        cmocka_unit_test(what_is_kept_is_not_called_new),
+        cmocka_unit_test(what_does_not_pass_is_refused),
+        cmocka_unit_test(the_page_tells_settings),
     };
     return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
 }

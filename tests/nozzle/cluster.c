@@ -139,6 +139,7 @@ static void a_ball_that_hangs(void **state)
     assert_float_equal(sp_nozzle_flow(&patterns[1], &water), 0.75e-3, 1e-15);
     assert_float_equal(sp_nozzle_speed(&patterns[1], &water), 19, 1e-12);
     assert_float_equal(sp_nozzle_angle(&nozzle), M_PI + 0.04, 1e-12);
+    assert_float_equal(sp_nozzle_cone(&nozzle), M_PI + 0.04, 1e-12);
 }
 
 static void jets_are_shared(void **state)

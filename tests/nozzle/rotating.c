@@ -243,6 +243,27 @@ static void turning_about_its_own_axis_changes_nothing(void **state)
     }
 }
 
+/* What people are told of it: the cone that holds all, not the jet that turns in it. */
+static void its_cone_holds_all_that_it_sprays(void **state)
+{
+    (void)state;
+    sp_nozzle_type fan = {.pattern = SP_PATTERN_ROTATING,
+                          .angle = deg(120),
+                          .thickness = deg(6),
+                          .rotation = {.jet = SP_PATTERN_FLAT_FAN, .tilt = deg(60)}},
+                   stream = {.pattern = SP_PATTERN_ROTATING,
+                             .angle = deg(1),
+                             .rotation = {.jet = SP_PATTERN_SOLID_STREAM, .tilt = deg(20)}},
+                   head = stream, still = {.pattern = SP_PATTERN_FULL_CONE, .angle = deg(90)};
+    head.rotation = (sp_rotation){.jet = SP_PATTERN_SOLID_STREAM, .jets = 4, .gears = {43, 47}};
+    assert_true(fabs(sp_nozzle_cone(&(sp_nozzle){.type = &fan}) - deg(240)) < 1e-12);
+    assert_true(fabs(sp_nozzle_cone(&(sp_nozzle){.type = &stream}) - deg(41)) < 1e-12);
+    assert_true(sp_nozzle_cone(&(sp_nozzle){.type = &head}) == 2 * M_PI);
+    assert_true(sp_nozzle_cone(&(sp_nozzle){.type = &still}) == deg(90));
+    assert_true(sp_nozzle_cone(&(sp_nozzle){.type = &still, .angle = deg(75)}) == deg(75));
+    assert_true(sp_nozzle_angle(&(sp_nozzle){.type = &head}) == deg(1));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +275,7 @@ int main(void)
         cmocka_unit_test(jets_follow_the_liquid),
         cmocka_unit_test(two_axes_are_the_mean_over_time),
         cmocka_unit_test(turning_about_its_own_axis_changes_nothing),
+        cmocka_unit_test(its_cone_holds_all_that_it_sprays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,7 +111,7 @@ static void print_nozzles(const sp_layout *layout, const sp_fluid *liquid)
         char flow[CLI_AMOUNT];
         cli_amount_text(l_min, l_min, 3, 3, flow);
         printf("%-16s %-20s %12s %11.3f %10.2f\n", nozzle->name, nozzle->type->name, flow,
-               sp_nozzle_speed(nozzle, liquid), sp_nozzle_angle(nozzle) * 180 / M_PI);
+               sp_nozzle_speed(nozzle, liquid), sp_nozzle_cone(nozzle) * 180 / M_PI);
     }
 }
 
