@@ -166,7 +166,9 @@ SP_API void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double
 SP_API bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
- * cavity's point), or in the way of goods that move. Of a cluster that is asked of each pattern. */
+ * cavity's point), or in the way of goods that move. Of a cluster that is asked of each pattern. The cavity's
+ * point may be what is wrong: where it lies outside a body around the nozzle the error names it too, and where it lies
+ * outside the geometry's box, as the nozzle does not, the error is the cavity's. */
 SP_API bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
 /* In how many positions goods that move are looked at on their pass; 1 where nothing moves. */
 SP_API size_t sp_evaluator_positions(const sp_evaluator *evaluator);

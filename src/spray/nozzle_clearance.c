@@ -2,6 +2,7 @@
 #include "nozzle_bodies.h"
 #include "movers.h"
 
+#include "spray/wet/wet.h"
 #include "trace/distance.h"
 
 #define TOUCH 1e-6 /* of the geometry's diagonal: nearer than this a nozzle is in the wall */
@@ -42,6 +43,33 @@ bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double 
            is_out_of_the_way(evaluator, point, fmax(clearance, touch(evaluator)));
 }
 
+/* It may be the cavity's point that is wrong: where it lies outside of what the nozzle is within, both are told. */
+static bool fail_outside(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
+{
+    const sp_setup *setup = &evaluator->setup;
+    sp_vec3 p = exit->position, point = setup->cavity == SP_CAVITY_POINT ? setup->cavity_point : p;
+    sp_vec3 told = sp_setup_outside(setup, p), from = sp_setup_outside(setup, point);
+    if (sp_is_within(evaluator->low, evaluator->high, p) && !sp_is_within(evaluator->low, evaluator->high, point))
+        return sp_fail(
+            error, SP_ERROR_INPUT, NULL, 0, 0,
+            "cavity: the point (%.12g m, %.12g m, %.12g m) lies outside the geometry's box, and nozzle %s at "
+            "[%.6g m, %.6g m, %.6g m] is not in the space around it; expected both in the space where the "
+            "liquid flies",
+            from.x, from.y, from.z, exit->name, told.x, told.y, told.z);
+    uint32_t part = sp_wet_part_around(evaluator->wet, setup->mesh, p);
+    if (part != SP_NONE && sp_wet_part_around(evaluator->wet, setup->mesh, point) == SP_NONE)
+        return sp_fail(
+            error, SP_ERROR_INPUT, NULL, 0, 0,
+            "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity: it is within part \"%s\", and "
+            "the cavity's point [%.6g m, %.6g m, %.6g m] is not; expected both in the space where the liquid "
+            "flies",
+            exit->name, told.x, told.y, told.z, setup->mesh->parts[part].name, from.x, from.y, from.z);
+    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
+                   "where the liquid flies",
+                   exit->name, told.x, told.y, told.z);
+}
+
 /* Where liquid leaves a nozzle. */
 static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
@@ -61,12 +89,7 @@ static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp
                        "all surfaces",
                        exit->name, told.x, told.y, told.z, mesh->parts[mesh->part[triangle]].name);
     }
-    if (sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p))
-        return true;
-    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
-                   "where the liquid flies",
-                   exit->name, told.x, told.y, told.z);
+    return sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p) || fail_outside(evaluator, exit, error);
 }
 
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)

@@ -103,6 +103,23 @@ static void a_nozzle_must_stand_in_the_liquid(void **state)
     forget(&result);
 }
 
+/* The nozzle stands where it should: the line to mend is the cavity's. */
+static void a_point_outside_is_not_blamed_on_the_nozzle(void **state)
+{
+    (void)state;
+    static const char complaint[] = "cavity: the point (3 m, 0.5 m, 0.5 m) lies outside the geometry's box, and nozzle "
+                                    "N1 at [0.5 m, 0.5 m, 0.9 m] is not "
+                                    "in the space around it; expected both in the space where the liquid flies";
+    char located[300];
+    write_room_with("beyond.yaml", "cavity: [0.5 m,", "cavity: [3 m,");
+    snprintf(located, sizeof located, "beyond.yaml:3:9: %s\n", complaint);
+    expect("simulate beyond.yaml", 3, "", located);
+    outcome result = run_program("check beyond.yaml");
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.out, complaint));
+    forget(&result);
+}
+
 /* In a closed room nothing gets lost; through an open ceiling it does. */
 static void simulate_says_where_the_liquid_goes(void **state)
 {
@@ -158,6 +175,7 @@ int main(void)
         cmocka_unit_test(simulate_gives_the_figures),
         cmocka_unit_test(compare_sets_scenes_side_by_side),
         cmocka_unit_test(a_nozzle_must_stand_in_the_liquid),
+        cmocka_unit_test(a_point_outside_is_not_blamed_on_the_nozzle),
         cmocka_unit_test(simulate_says_where_the_liquid_goes),
         cmocka_unit_test(atlas_keeps_every_triangle),
     };

@@ -209,6 +209,45 @@ static void a_nozzle_may_stand_above_an_open_tank(void **state)
     sp_mesh_destroy(f.mesh);
 }
 
+/* Two bodies with the cavity's point between: in either, whichever way they are turned, what parts the two is named,
+ * and with a point beyond both that comes first, but of a nozzle that is out there too. */
+static void where_the_cavity_lies_is_told_of_a_nozzle_elsewhere(void **state)
+{
+    (void)state;
+    static const struct {
+        sp_vec3 nozzle, point;
+        const char *told;
+    } cases[] = {
+        {{0.5, 0.5, 0.5}, {2, 0.5, 0.5}, "within part \"left\", and the cavity's point [2 m, 0.5 m, 0.5 m] is not"},
+        {{3.5, 0.5, 0.5}, {2, 0.5, 0.5}, "within part \"right\", and"},
+        {{3.5, 0.5, 0.5}, {2, 0.5, 3}, "cavity: the point (2 m, 0.5 m, 3 m) lies outside the geometry's box"},
+        {{0.5, 0.5, 0.5}, {3.5, 0.5, 0.5}, "N1 at [0.5 m, 0.5 m, 0.5 m] is not inside the cavity"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        shape s = shape_create();
+        shape_part(&s, "left");
+        shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), false);
+        shape_part(&s, "right");
+        shape_box(&s, sp_v(3, 0, 0), sp_v(4, 1, 1), true);
+        fixture f = {.mesh = shape_mesh(&s), .setup = sp_setup_default()};
+        f.surfaces[0] = f.surfaces[1] = (sp_surface){.clean = true, .rebound = 1};
+        f.setup.mesh = f.mesh;
+        f.setup.surfaces = f.surfaces;
+        f.setup.fidelity.texel = 0.1;
+        f.setup.cavity = SP_CAVITY_POINT;
+        f.setup.cavity_point = cases[i].point;
+        sp_error error = {0};
+        sp_evaluator *evaluator = sp_evaluator_create(&f.setup, &error);
+        sp_nozzle nozzle = {
+            .name = "N1", .type = &ball, .position = cases[i].nozzle, .axis = sp_v(0, 0, 1), .pressure = 2e5};
+        assert_non_null(evaluator);
+        assert_false(sp_evaluator_admits(evaluator, &nozzle, &error));
+        if (!strstr(error.message, cases[i].told))
+            fail_msg("case %zu: no '%s' in %s", i, cases[i].told, error.message);
+        sp_evaluator_destroy(evaluator);
+        sp_mesh_destroy(f.mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,6 +257,7 @@ int main(void)
         cmocka_unit_test(the_percentile_of_the_flux_is_by_area),
         cmocka_unit_test(a_nozzle_stands_in_the_liquid),
         cmocka_unit_test(a_nozzle_may_stand_above_an_open_tank),
+        cmocka_unit_test(where_the_cavity_lies_is_told_of_a_nozzle_elsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

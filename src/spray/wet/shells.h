@@ -16,6 +16,13 @@ typedef struct {
     sp_vec3 *low, *high; /* [count], box, m */
 } sp_shells;
 
+/* Whether a point lies in a box. */
+static inline bool sp_is_within(sp_vec3 low, sp_vec3 high, sp_vec3 point)
+{
+    return point.x >= low.x && point.y >= low.y && point.z >= low.z && point.x <= high.x && point.y <= high.y &&
+           point.z <= high.z;
+}
+
 /* Corners nearer than `same` (m) are one. Every turn of a closed shell is 1. */
 bool sp_shells_create(sp_shells *shells, const sp_mesh *mesh, double same, sp_error *error);
 /* Accepts what was never created, if it is all zeros. */

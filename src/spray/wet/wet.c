@@ -104,15 +104,16 @@ static void turn_shells(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
     }
 }
 
-/* The part of the innermost body that has the point in it, which of those that do has the smallest box. */
-static uint32_t part_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point)
+/* The innermost has the smallest box. */
+uint32_t sp_wet_part_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point)
 {
     const sp_shells *shells = &wet->shells;
     uint32_t part = SP_NONE;
     double least = INFINITY;
     for (uint32_t s = 0; s < shells->count; s++) {
         double size = sp_distance(shells->low[s], shells->high[s]);
-        if (!shells->closed[s] || size >= least || shells->turn[s] * sp_winding_of(wet->solids, point, s) <= 0)
+        if (!shells->closed[s] || size >= least || !sp_is_within(shells->low[s], shells->high[s], point) ||
+            shells->turn[s] * sp_winding_of(wet->solids, point, s) <= 0)
             continue;
         part = mesh->part[shells->widest[s]];
         least = size;
@@ -133,7 +134,7 @@ static bool fail_in_material(const sp_wet *wet, const sp_setup *setup, sp_error 
 {
     const sp_mesh *mesh = setup->mesh;
     sp_vec3 point = setup->cavity_point, told = sp_setup_outside(setup, point);
-    uint32_t part = part_around(wet, mesh, point);
+    uint32_t part = sp_wet_part_around(wet, mesh, point);
     bool open = part != SP_NONE && has_open_shell(wet, mesh, part);
     return sp_fail(
         error, SP_ERROR_INPUT, NULL, 0, 0,

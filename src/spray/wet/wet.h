@@ -25,5 +25,8 @@ void sp_wet_destroy(sp_wet *wet);
 unsigned sp_wet_at(const sp_wet *wet, uint32_t triangle, double u, double v);
 /* Whether a point lies in a solid. */
 bool sp_wet_is_material(const sp_wet *wet, sp_vec3 point);
+/* The part of the innermost body that has a point within its surface, in material or in a hollow; SP_NONE: none, as in
+ * a room of one shell. */
+uint32_t sp_wet_part_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point);
 
 #endif
