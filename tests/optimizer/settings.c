@@ -19,6 +19,7 @@ static void job_open(job *j)
     room_builder b = {0};
     room_box(&b, sp_v(-1, -1, 0), sp_v(1, 1, 2), "walls", "lid");
     *j = (job){.pressure = 2.1 * BAR, .room = {.setup = sp_setup_default()}, .options = room_options()};
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j->room.setup.cavity = SP_CAVITY_POINT;
     j->room.setup.cavity_point = sp_v(0, 0, 1);
     j->room.setup.criterion.flux = LITRES_PER_MINUTE;
