@@ -54,9 +54,9 @@ static const char room_yaml[] =
     "  max_nozzles: 4\n"
     "  pressure: 2 bar\n"
     "  mounts:\n"
-    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
+    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 20 deg, depth: {from: 100 mm, to: "
     "500 mm, spacing: 200 mm}}\n"
-    "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
+    "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], axis: [0, 0, -1], tilt: 20 deg, depth: {from: 100 mm, to: "
     "500 mm, spacing: 200 mm}}\n";
 
 static char workplace[512];
