@@ -93,8 +93,15 @@ bool sp_jet_fields_create(const sp_search *search, const sp_evaluator *fine, con
     size_t distinct = count_distinct(nozzles, count);
     double enough = JETS_EACH_PATCH * (double)search->patch_count;
     double jets = fmax(JETS_LEAST, fmin(enough, JETS / (double)distinct));
-    return allocate(search, count, distinct, fields, error) &&
-           fly_all(nozzles, count, reflections, jets, deadline, fields, error);
+    sp_error failure = {0};
+    if (!allocate(search, count, distinct, fields, error))
+        return false;
+    /* who is interrupted has what was found without this */
+    if (fly_all(nozzles, count, reflections, jets, deadline, fields, &failure) || failure.kind == SP_ERROR_INTERRUPTED)
+        return true;
+    if (error)
+        *error = failure;
+    return false;
 }
 
 void sp_jet_fields_free(sp_jet_fields *fields)

@@ -16,7 +16,7 @@ typedef struct {
 } sp_jet_fields;
 
 /* Of `nozzles` [count], of the search's layouts, with as many reflections as `fine` counts; none where time is too
- * short. The film is what the search says. Freed by the caller, after failure too. */
+ * short, or the run is interrupted. The film is what the search says. Freed by the caller, after failure too. */
 bool sp_jet_fields_create(const sp_search *search, const sp_evaluator *fine, const sp_placed *const *nozzles,
                           size_t count, sp_deadline *deadline, sp_jet_fields *fields, sp_error *error);
 void sp_jet_fields_free(sp_jet_fields *fields);
