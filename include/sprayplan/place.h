@@ -180,7 +180,8 @@ typedef struct {
     sp_coverage *greedy_coverage;
     bool *attainable; /* [patches], of `again` where there is one: nozzles at the mounting points, aimed in any way that
                        * mounts and types allow, not only as candidates are, could cover the point that it is judged
-                       * by within the limits; or either layout above covers half of it */
+                       * by within the limits; or either layout above covers half of it. Where the evaluator counts
+                       * what walls throw back: any liquid gets there */
     sp_reason *reasons;     /* [patches]: why not */
     double attainable_area; /* m² */
     double asked_area;      /* m²: options' coverage of the surface to be cleaned */

@@ -254,8 +254,10 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     add_allowed(page, text);
     sp_text_add(text,
                 ", at a mounting point looked at and aimed in any way that its mount and type allow, not only as the "
-                "candidate poses are, reaches them as the criterion asks, each patch judged at one point; or %s covers "
-                "them, half of a patch at least.",
+                "candidate poses are, %s, each patch judged at one point; or %s covers them, half of a patch at least.",
+                sp_result_counts_thrown_back(page->result)
+                    ? "gets liquid to them, thrown back by walls or not, as much as the criterion asks or less"
+                    : "reaches them as the criterion asks",
                 page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
     double limited = add_limited(page, text, figures);
     if (missing - limited > NEGLIGIBLE * figures->clean_area)

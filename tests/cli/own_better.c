@@ -87,6 +87,7 @@ static void what_the_search_does_not_count_is_told(void **state)
         char *page = read_file("bouncing/report.html", NULL);
         assert_int_equal(strstr(done.out, told) != NULL, i == 0);
         assert_int_equal(strstr(page, "id=\"thrown-back\">The coverage of the layouts counts liquid") != NULL, i == 0);
+        assert_int_equal(strstr(page, "gets liquid to them, thrown back by walls or not") != NULL, i == 0);
         free(page);
         forget(&done);
     }
