@@ -306,7 +306,11 @@ static void look_away(outlook *o)
     sp_sites_free(&o->sites);
 }
 
+#ifdef SPRAYPLAN_SANITIZE
 #define MEMORY_TEXEL 0.14
+#else
+#define MEMORY_TEXEL 0.1
+#endif
 
 /* Little memory means more work, not another answer, of two threads neither; and too little is an error. */
 static void little_memory_is_enough(void **state)

@@ -22,7 +22,7 @@ static void few_nozzles_cover_most_whatever_their_water(void **state)
 {
     (void)state;
     job j;
-    job_open_coarse(&j, 0.2);
+    job_open_coarse(&j, 0.1);
     j.options.type_count = 3;
     j.mounts[0].tilt = 120 * DEGREE;
     j.mounts[0].spacing = 0.8;
@@ -467,8 +467,10 @@ static void same_layout(const sp_layout *a, const sp_layout *b)
 
 /* Of search, refinement, certificate and its layouts one by one. */
 #ifdef SPRAYPLAN_SANITIZE
+#define THREADS_TEXEL 0.2
 #define THREADS_TILT 20
 #else
+#define THREADS_TEXEL 0.1
 #define THREADS_TILT 40
 #endif
 
@@ -476,7 +478,7 @@ static void threads_do_not_matter(void **state)
 {
     (void)state;
     job j;
-    job_open_coarse(&j, 0.2);
+    job_open_coarse(&j, THREADS_TEXEL);
     j.mounts[0].tilt = THREADS_TILT * DEGREE;
     j.mounts[0].spacing = 0.8;
     j.types[0].angle_min = 80 * DEGREE;

@@ -155,7 +155,11 @@ static void roll_follows_the_plank(void **state)
     room_close(&j.room);
 }
 
+#ifdef SPRAYPLAN_SANITIZE
 #define SCALED_TEXEL 0.0625 /* times the room's edge */
+#else
+#define SCALED_TEXEL 0.03125
+#endif
 
 /* A room of `edge` m by .8 by .6 of that, and nozzles whose water grows with its area. */
 static void open_scaled_room(job *j, double edge)

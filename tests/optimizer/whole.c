@@ -97,8 +97,10 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
                                          "front",      "refine",     "certificate"};
 #ifdef SPRAYPLAN_SANITIZE
     static const size_t calls[] = {2};
+    const double tilt = 20 * DEGREE;
 #else
     static const size_t calls[] = {0, 20};
+    const double tilt = 40 * DEGREE;
 #endif
     size_t stopped = 0;
     for (size_t s = 0; s < sizeof stages / sizeof *stages; s++)
@@ -108,7 +110,7 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
             stopper stop = {stages[s], 0, calls[c]};
             j.options.max_nozzles = 3;
             j.options.coverage = 0.7;
-            j.mounts[0].tilt = 20 * DEGREE;
+            j.mounts[0].tilt = tilt;
             j.mounts[0].spacing = 0.8;
             j.options.refine = sp_place_options_default().refine;
             j.options.run.progress = stop_in_stage;

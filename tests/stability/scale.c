@@ -1,10 +1,11 @@
 /* The same room at another size or place gets the same proposal; and of equal candidates the first. */
 #include "../optimizer/room.h"
 
-#define TEXEL 0.125 /* times the room's edge */
 #ifdef SPRAYPLAN_SANITIZE
+#define TEXEL 0.125 /* times the room's edge */
 #define MOST_NOZZLES 2
 #else
+#define TEXEL 0.0625
 #define MOST_NOZZLES 3
 #endif
 
