@@ -92,7 +92,7 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix
         !sp_selection_create(matrix, &selection, &error))
         fail(&error);
     sp_selection_set(&selection, start->row, start->count);
-    if (!sp_selection_partial(&selection, &partial, &error))
+    if (!sp_selection_partial(&selection, &tuned->search, NULL, &partial, &error))
         fail(&error);
     sp_tuned_settle(tuned, &partial);
     covered[0] = partial.covered;

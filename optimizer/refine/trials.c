@@ -103,7 +103,7 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
            sp_coverage_matrix_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &matrix, refining->error) &&
            sp_enumerate_partially(&matrix, budgets, count, refining->deadline, selections, refining->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_selection_partial(&selections[i], &trials->items[i].other, refining->error);
+        done = sp_selection_partial(&selections[i], &tuned->search, nozzles, &trials->items[i].other, refining->error);
     for (size_t i = 0; selections && i < count; i++)
         sp_selection_free(&selections[i]);
     free(budgets);

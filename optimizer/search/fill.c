@@ -2,6 +2,7 @@
 
 #include "search/jet_fields.h"
 #include "search/pareto.h"
+#include "search/partial_enumeration.h"
 
 #include <stdlib.h>
 
@@ -78,22 +79,6 @@ static double known_to_cover(const filling *f, double outlay)
     return covered;
 }
 
-/* The selection as a partial layout of the search. */
-static bool build(const filling *f, const sp_selection *selection, sp_partial *partial)
-{
-    size_t pool = f->pool->count;
-    if (!sp_partial_create(f->search, partial, f->error))
-        return false;
-    bool done = true;
-    for (size_t i = 0; done && i < selection->count; i++)
-        done = selection->row[i] < pool
-                   ? sp_partial_add_pose(f->search, partial, f->pool->items[selection->row[i]], f->error)
-                   : sp_partial_add_copy(f->search, partial, f->nozzles[selection->row[i] - pool], f->error);
-    if (!done)
-        sp_partial_free(partial);
-    return done;
-}
-
 /* Layouts of the search as partial ones, where they cover clearly more than the front does for as much. All of them
  * before any is noted: the front may then drop layouts whose nozzles they hold. */
 static bool build_all(const filling *f, sp_partial *partials, size_t *count)
@@ -107,7 +92,7 @@ static bool build_all(const filling *f, sp_partial *partials, size_t *count)
         if (!sp_pareto_counts(&f->pareto, i))
             continue;
         sp_selection_set(&selection, f->pareto.layouts[i].row, f->pareto.layouts[i].count);
-        done = build(f, &selection, partial);
+        done = sp_selection_partial(&selection, f->search, f->nozzles, partial, f->error);
         if (done && covers(f, &selection, partial) > known_to_cover(f, partial->outlay) * (1 + GAIN_LEAST))
             (*count)++;
         else if (done)

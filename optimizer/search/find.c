@@ -93,7 +93,7 @@ static bool start_from(const sp_finding *finding, const sp_partial *greedy, cons
                        double budget, size_t i, sp_partial *partial)
 {
     if (i == 1)
-        return sp_selection_partial(enumerated, partial, finding->error);
+        return sp_selection_partial(enumerated, finding->search, NULL, partial, finding->error);
     if (!sp_partial_copy(finding->search, greedy, partial, finding->error))
         return false;
     while (partial->count && partial->outlay > budget)

@@ -307,17 +307,17 @@ bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budg
     return done;
 }
 
-bool sp_selection_partial(const sp_selection *selection, sp_partial *partial, sp_error *error)
+bool sp_selection_partial(const sp_selection *selection, const sp_search *search, const sp_placed *const *others,
+                          sp_partial *partial, sp_error *error)
 {
-    const sp_coverage_matrix *matrix = selection->matrix;
-    if (!sp_partial_create(matrix->search, partial, error))
+    const sp_pool *pool = selection->matrix->pool;
+    if (!sp_partial_create(search, partial, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < selection->count; i++) {
         size_t row = selection->row[i];
-        done = row < matrix->pool->count
-                   ? sp_partial_add_pose(matrix->search, partial, matrix->pool->items[row], error)
-                   : sp_partial_add_copy(matrix->search, partial, matrix->others[row - matrix->pool->count], error);
+        done = row < pool->count ? sp_partial_add_pose(search, partial, pool->items[row], error)
+                                 : sp_partial_add_copy(search, partial, others[row - pool->count], error);
     }
     if (!done)
         sp_partial_free(partial);

@@ -238,7 +238,7 @@ static void regrouping_never_loses(void **state)
             sp_selection_regroup(&selection, budget, &scratch);
             assert_true(selection.covered >= before && selection.flow <= budget);
             sp_partial partial;
-            assert_true(sp_selection_partial(&selection, &partial, &error));
+            assert_true(sp_selection_partial(&selection, &j.ready.search, NULL, &partial, &error));
             assert_true(fabs(partial.covered - selection.covered) < 1e-5 * selection.covered);
             assert_true(fabs(partial.flow - selection.flow) < 1e-12);
             sp_partial_free(&partial);
