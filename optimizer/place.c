@@ -5,6 +5,7 @@
 #include "forward_check.h"
 #include "remedies.h"
 #include "scoring/footprints.h"
+#include "search/draft.h"
 #include "search/fill.h"
 #include "search/find.h"
 #include "ceres/least_squares.h"
@@ -23,7 +24,8 @@
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
 #define SEARCH_HURRIED 0.95
-#define SETTING 0.05 /* more, for what steps allow of all that was found */
+#define SETTING 0.05  /* more, for what steps allow of all that was found */
+#define COUNTING 0.15 /* more, for counting as the scene says what drafts have found */
 /* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
@@ -143,9 +145,10 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
     for (size_t p = 0; p < patches; p++)
         proposal->attainable[p] = proposal->reasons[p] == SP_REASON_ATTAINABLE;
     set_areas(placement, proposal);
-    placement->front.fine = placement->fine;
-    placement->front.objective = placement->options->objective;
-    placement->front.target = proposal->target_area;
+    placement->front = (sp_front){.fine = placement->fine,
+                                  .deadline = &placement->deadline,
+                                  .objective = placement->options->objective,
+                                  .target = proposal->target_area};
     return sp_deadline_stage(&placement->deadline, "attainable", error);
 }
 
@@ -169,10 +172,28 @@ static double *list_costs(const sp_placement *placement, sp_error *error)
 }
 
 /* The best found on the candidates. */
-static bool write_greedy(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
+static bool write_greedy(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    return write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
-           (proposal->greedy_costs = list_costs(placement, error));
+    if (!write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) ||
+        !(proposal->greedy_costs = list_costs(placement, error)))
+        return false;
+    return sp_draft_aim(&placement->front, &placement->search, proposal->target_area,
+                        proposal->greedy_coverage->covered_area, error);
+}
+
+/* Drafts are as far off as the best of them is by now. */
+static bool aim_again(sp_placement *placement, const sp_proposal *proposal, sp_error *error)
+{
+    sp_layout *layout = NULL;
+    sp_coverage *coverage = NULL;
+    if (!placement->front.draft_jets || !sp_deadline_goes_on(&placement->deadline, "refine", 1))
+        return true;
+    bool done =
+        write_down(placement, &layout, &coverage, error) &&
+        sp_draft_aim(&placement->front, &placement->search, proposal->target_area, coverage->covered_area, error);
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(layout);
+    return done;
 }
 
 /* False where what candidates bring could not be found when it was asked for. */
@@ -206,6 +227,7 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     const sp_run *run = &placement->options->run;
     sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
+    front->draft_jets = sp_draft_jets(search, placement->fine);
     bool refines = sp_refine_asked(&placement->options->refine), brief = sp_run_hurries(run);
     bool hurried = refines && (brief || sp_deadline_presses(deadline));
     sp_partial first;
@@ -215,14 +237,16 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
         sp_deadline_lend(deadline, FIRST_SHARE);
     bool done = !hurried || refine_first(placement, &first, proposal, error);
     sp_deadline_allow(deadline, search_share(placement->options));
-    done = done && sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
+    done = done && (!hurried || aim_again(placement, proposal, error)) &&
+           sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
            (hurried || write_greedy(placement, proposal, error));
     sp_partial_free(&first);
     return done;
 }
 
-/* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set. */
-static bool improve(sp_placement *placement, sp_error *error)
+/* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set; in the end
+ * as the scene measures it. */
+static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_error *error)
 {
     const sp_search *search = &placement->search;
     sp_deadline *deadline = &placement->deadline;
@@ -233,8 +257,12 @@ static bool improve(sp_placement *placement, sp_error *error)
         !sp_fill_front_by_jets(search, &placement->pool, deadline, front, error) ||
         !sp_deadline_stage(deadline, "fill", error))
         return false;
-    sp_deadline_allow(deadline, fmin(1, search_share(placement->options) + SETTING));
-    return sp_set_front(search, deadline, front, error);
+    double share = search_share(placement->options) + SETTING;
+    sp_deadline_allow(deadline, fmin(1, share));
+    if (!sp_set_front(search, deadline, front, error))
+        return false;
+    sp_deadline_allow(deadline, fmin(1, share + COUNTING));
+    return sp_draft_count(front, search, proposal->target_area, error);
 }
 
 /* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
@@ -451,12 +479,13 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *giv
     sp_placement placement = {.fine = evaluator, .options = options, .deadline = sp_deadline_start(&options->run)};
     sp_deadline_allow(&placement.deadline, search_share(options));
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
-                find(&placement, proposal, error) && is_sound(&placement, error) && improve(&placement, error) &&
-                is_sound(&placement, error) && propose(&placement, proposal, error) &&
-                sp_deadline_stage(&placement.deadline, "refine", error) && confirm(&placement, proposal, error) &&
-                find_remedies(&placement, proposal, error) && check_forward(&placement, proposal, error) &&
-                certify(&placement, proposal, error) && is_sound(&placement, error) &&
-                sp_deadline_stage(&placement.deadline, "certificate", error) && conclude(&placement, proposal, error);
+                find(&placement, proposal, error) && is_sound(&placement, error) &&
+                improve(&placement, proposal, error) && is_sound(&placement, error) &&
+                propose(&placement, proposal, error) && sp_deadline_stage(&placement.deadline, "refine", error) &&
+                confirm(&placement, proposal, error) && find_remedies(&placement, proposal, error) &&
+                check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
+                is_sound(&placement, error) && sp_deadline_stage(&placement.deadline, "certificate", error) &&
+                conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

@@ -235,7 +235,7 @@ bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *fron
     if (!has_steps(search->options))
         return true;
     sp_front before = *front;
-    *front = (sp_front){.fine = before.fine, .objective = before.objective, .target = before.target};
+    *front = sp_front_anew(&before);
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
     bool done = set_partials(search, &before.best, front, error);
     /* what takes most water is nearest to the best, and comes first where time is short */

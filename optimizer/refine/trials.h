@@ -5,7 +5,6 @@
 #include "refine/local_search.h"
 #include "search/front.h"
 
-#define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
 
 typedef struct {
     const sp_search *search;
@@ -22,12 +21,6 @@ typedef struct {
     size_t count, capacity;
     sp_trial *items;
 } sp_trials;
-
-static inline bool sp_point_same(const sp_front_point *a, const sp_front_point *b)
-{
-    return fabs(a->area - b->area) <= SP_GAIN_LEAST * b->area &&
-           fabs(a->outlay - b->outlay) <= SP_GAIN_LEAST * b->outlay;
-}
 
 /* Another trial of a copy of the layout, within a budget (m³/s of outlay). */
 bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget,

@@ -15,6 +15,15 @@ static double tie_of(const sp_front *front)
     return SP_TIE * sp_evaluator_patches(front->fine)->total_area;
 }
 
+sp_front sp_front_anew(const sp_front *front)
+{
+    return (sp_front){.fine = front->fine,
+                      .draft_jets = front->draft_jets,
+                      .deadline = front->deadline,
+                      .objective = front->objective,
+                      .target = front->target};
+}
+
 static bool less_outlay(const sp_front_point *a, const sp_front_point *b)
 {
     return a->outlay < b->outlay * (1 - SP_ROUNDING);
@@ -93,11 +102,33 @@ static size_t fittings_of(const sp_search *search, const sp_partial *partial)
     return count;
 }
 
+static bool flies_jets(const sp_front *front)
+{
+    return sp_evaluator_fidelity(front->fine)->method == SP_METHOD_FORWARD;
+}
+
+static sp_coverage *evaluate(const sp_front *front, const sp_search *search, const sp_layout *layout, sp_error *error)
+{
+    if (!front->draft_jets)
+        return sp_evaluate(front->fine, layout, error);
+    uint64_t jets = front->draft_jets * (layout->count ? layout->count : 1);
+    return sp_evaluate_forward(search->coarse, layout, sp_evaluator_fidelity(front->fine)->reflections, jets, error);
+}
+
+/* Jets take so long that each layout may be the last for which there is time. */
+static bool has_time(const sp_front *front)
+{
+    if (!flies_jets(front) || sp_deadline_has_time(front->deadline, "front", 1))
+        return true;
+    sp_deadline_cut(front->deadline, "front");
+    return false;
+}
+
 static bool measure(const sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                     sp_error *error)
 {
     sp_layout *layout = sp_partial_to_layout(search, partial, error);
-    sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
+    sp_coverage *coverage = layout ? evaluate(front, search, layout, error) : NULL;
     if (coverage)
         *point = (sp_front_point){.flow = coverage->flow,
                                   .area = coverage->covered_area,
@@ -113,35 +144,25 @@ static bool measure(const sp_front *front, const sp_search *search, const sp_par
     return done;
 }
 
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
-                      sp_error *error)
-{
-    sp_front_point own = {.area = -1};
-    if (!sp_front_note(front, search, partial, &own, error))
-        return false;
-    if (point)
-        *point = own;
-    return true;
-}
-
 /* Those that are this rank's, at once. */
 static bool measure_own(const sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
                         sp_front_point *points, sp_error *error)
 {
     sp_error failure = {0};
     /* jets tell the caller how far they are, which only one thread may */
-    bool jets = sp_evaluator_fidelity(front->fine)->method == SP_METHOD_FORWARD;
-    int threads = jets ? 1 : sp_threads(&search->options->run);
+    int threads = flies_jets(front) ? 1 : sp_threads(&search->options->run);
+    sp_ranks_part(search->options->run.ranks);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < count; i++) {
         sp_error mine = {0};
         points[i] = (sp_front_point){.area = -1};
-        if (partials[i] && sp_ranks_mine(search->options->run.ranks, i) &&
+        if (partials[i] && sp_ranks_mine(search->options->run.ranks, i) && has_time(front) &&
             !measure(front, search, partials[i], &points[i], &mine)) {
 #pragma omp critical(sp_front_failure)
             failure = mine;
         }
     }
+    sp_ranks_rejoin(search->options->run.ranks);
     return failure.kind == SP_OK ||
            sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
@@ -166,15 +187,10 @@ bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, cons
     return true;
 }
 
-bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
-                   sp_error *error)
+/* A copy as the best. */
+static bool keep(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
+                 sp_error *error)
 {
-    if ((point->area < 0 && !measure(front, search, partial, point, error)) ||
-        !note(&front->by_water, by_water, tie_of(front), search, partial, point, error) ||
-        !note(&front->by_number, by_number, tie_of(front), search, partial, point, error))
-        return false;
-    if (front->found && !sp_front_better(front, point, &front->measured))
-        return true;
     sp_partial copy;
     if (!sp_partial_copy(search, partial, &copy, error))
         return false;
@@ -184,6 +200,48 @@ bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *p
     front->bias = point->area - partial->covered;
     front->found = true;
     return true;
+}
+
+bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_error *error)
+{
+    bool done = true;
+    front->target = target;
+    for (size_t i = 0; done && i < front->by_water.count; i++) {
+        const sp_front_entry *entry = &front->by_water.entries[i];
+        if (sp_front_better(front, &entry->point, &front->measured))
+            done = keep(front, search, &entry->partial, &entry->point, error);
+    }
+    return done;
+}
+
+/* A layout that has been measured, into the fronts. */
+static bool enter(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
+                  sp_error *error)
+{
+    if (!note(&front->by_water, by_water, tie_of(front), search, partial, point, error) ||
+        !note(&front->by_number, by_number, tie_of(front), search, partial, point, error))
+        return false;
+    return (front->found && !sp_front_better(front, point, &front->measured)) ||
+           keep(front, search, partial, point, error);
+}
+
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
+                      sp_error *error)
+{
+    sp_front_point own;
+    if (!measure(front, search, partial, &own, error) || !enter(front, search, partial, &own, error))
+        return false;
+    if (point)
+        *point = own;
+    return true;
+}
+
+bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
+                   sp_error *error)
+{
+    if (point->area < 0)
+        return !has_time(front) || sp_front_measure(front, search, partial, point, error);
+    return enter(front, search, partial, point, error);
 }
 
 bool sp_front_measure_all(sp_front *front, const sp_search *search, const sp_partial *partials, size_t count,

@@ -1,9 +1,14 @@
-/* What the search has found: layouts measured by the scene's own evaluator, and the fronts of coverage against water
- * and against number of nozzles. */
+/* What the search has found: layouts measured by the scene's own evaluator, or by a draft of it, and the fronts of
+ * coverage against water and against number of nozzles. */
 #ifndef OPTIMIZER_FRONT_H
 #define OPTIMIZER_FRONT_H
 
+#include "deadline/deadline.h"
 #include "scoring/partial.h"
+
+#include <math.h>
+
+#define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
 
 typedef struct {
     sp_front_point point;
@@ -19,6 +24,8 @@ typedef struct {
 
 typedef struct {
     const sp_evaluator *fine;
+    uint64_t draft_jets; /* of a nozzle, on the search's patches; 0: layouts are measured as the scene says */
+    sp_deadline *deadline;
     sp_objective objective;
     double target; /* m² */
     sp_front_list by_water, by_number;
@@ -34,25 +41,37 @@ static inline const sp_partial *sp_front_partial(const sp_front *front, size_t i
     return i < front->by_water.count ? &front->by_water.entries[i].partial : &front->best;
 }
 
+/* No better and no worse to speak of. */
+static inline bool sp_point_same(const sp_front_point *a, const sp_front_point *b)
+{
+    return fabs(a->area - b->area) <= SP_GAIN_LEAST * b->area &&
+           fabs(a->outlay - b->outlay) <= SP_GAIN_LEAST * b->outlay;
+}
+
 /* Whether the best is to take less: it covers what is asked for. Else it is to cover more. */
 static inline bool sp_front_saves(const sp_front *front)
 {
     return front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
 }
 
+/* An empty one that measures as `front` does, for the same target. */
+sp_front sp_front_anew(const sp_front *front);
 /* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
+/* For another target from now on; the best becomes that by it. */
+bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_error *error);
 /* Measures the layout, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                       sp_error *error);
 /* Measures layouts, NULL for none, at once, of several ranks each some of them, and notes nothing: points [count], of
- * which those that nobody has measured have an area of -1. */
+ * which those that nobody has measured have an area of -1. Jets are flown for as many as there is time for. */
 bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
                             size_t count, sp_front_point *points, sp_error *error);
 /* Measures and notes layouts, measured ahead. */
 bool sp_front_measure_all(sp_front *front, const sp_search *search, const sp_partial *partials, size_t count,
                           sp_error *error);
-/* As sp_front_measure, with what measuring ahead gave, if it gave anything. */
+/* As sp_front_measure, with what measuring ahead gave; where it gave nothing and jets would have to be flown, only
+ * while there is time: after that *point is as it was. */
 bool sp_front_note(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                    sp_error *error);
 /* All nozzles of the layouts by water, one layout's after the other's; malloc'd, to be freed before anything is noted.

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define JETS 1e7            /* of all nozzles together */
+#define JETS 3e6            /* of all nozzles together */
 #define JETS_LEAST 3e4      /* of each: fewer tell little of what falls on a patch */
 #define JETS_EACH_PATCH 100 /* more tell little more */
 
