@@ -2,6 +2,7 @@
 
 #include "attainable/coarse_patch.h"
 #include "scoring/partial_packing.h"
+#include "spray/criterion.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -163,18 +164,26 @@ static site_best *take_best(remedying *r)
     return best;
 }
 
-/* m² that a layout covers of the shadow and the proposal does not. */
-static double newly_covered(const remedying *r, uint32_t shadow, const sp_coverage *coverage)
+/* m² of the shadow that the layout covers with the last nozzle, of which `alone` says what it brings, and not without
+ * it: liquid of one does not depend on the others'. */
+static double newly_covered(const remedying *r, uint32_t shadow, const sp_layout *layout, const sp_coverage *alone)
 {
     const sp_patches *patches = sp_evaluator_patches(r->fine);
+    const sp_criterion *criterion = &sp_evaluator_setup(r->fine)->criterion;
+    const sp_deposits *had = &r->coverage->deposits, *more = &alone->deposits;
+    bool edges = !sp_layout_repeats(layout, layout->count - 1);
     double area = 0;
-    for (size_t p = 0; p < patches->count; p++)
-        if (r->number[p] == shadow)
-            area += patches->area[p] * (coverage->deposits.share[p] - r->coverage->deposits.share[p]);
+    for (size_t p = 0; p < patches->count; p++) {
+        if (r->number[p] != shadow)
+            continue;
+        double even = sp_combined(criterion, had->even[p], more->even[p]), dry = edges ? more->dry[p] : 1;
+        double share = sp_share_covered(criterion, even, had->dry[p] * dry, had->film[p] + more->film[p]);
+        area += patches->area[p] * (share - had->share[p]);
+    }
     return fmax(0, area);
 }
 
-/* The layout with that nozzle, by the scene's own count: *remedy becomes it where it covers more. */
+/* The layout with that nozzle, by the scene's own settings: *remedy becomes it where it covers more. */
 static bool measure(const remedying *r, const sp_partial *partial, sp_pose pose, uint32_t shadow, sp_remedy *remedy,
                     sp_error *error)
 {
@@ -183,19 +192,18 @@ static bool measure(const remedying *r, const sp_partial *partial, sp_pose pose,
         return false;
     sp_layout *layout =
         sp_partial_add_pose(r->search, &more, pose, error) ? sp_partial_to_layout(r->search, &more, error) : NULL;
-    sp_coverage *coverage = layout ? sp_evaluate(r->fine, layout, error) : NULL;
+    const sp_layout one = {.count = 1, .nozzles = layout ? &layout->nozzles[layout->count - 1] : NULL};
+    sp_coverage *alone = layout ? sp_evaluate(r->fine, &one, error) : NULL;
     const sp_mount *mount = &r->search->options->mounts[r->search->sites->items[pose.site].mount];
-    bool done = coverage != NULL;
-    double area = done ? newly_covered(r, shadow, coverage) : 0;
+    bool done = alone != NULL;
+    double area = done ? newly_covered(r, shadow, layout, alone) : 0;
     if (done && (!remedy->nozzle.type || area > remedy->area)) {
-        *remedy = (sp_remedy){.nozzle = layout->nozzles[layout->count - 1],
-                              .in_port = mount->kind == SP_MOUNT_PORT,
-                              .area = area,
-                              .flow = coverage->flow - r->coverage->flow};
+        *remedy = (sp_remedy){
+            .nozzle = one.nozzles[0], .in_port = mount->kind == SP_MOUNT_PORT, .area = area, .flow = alone->flow};
         if (remedy->in_port) /* a nozzle that sits elsewhere may be called like it */
             memcpy(remedy->nozzle.name, mount->name, sizeof remedy->nozzle.name);
     }
-    sp_coverage_destroy(coverage);
+    sp_coverage_destroy(alone);
     sp_layout_destroy(layout);
     sp_partial_free(&more);
     return done;

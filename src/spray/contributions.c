@@ -85,7 +85,7 @@ static double share_without(const shares *each, size_t nozzle, size_t patch)
             others.dry *= each->dry[at];
         film += each->film ? each->film[at] : 0;
     }
-    return each->film && film >= criterion->film ? 1 : sp_wetting_share(&others, criterion->flux);
+    return sp_share_covered(criterion, others.even, others.dry, film);
 }
 
 /* Whose edges count without a nozzle: of those that repeat each other one's. */

@@ -41,5 +41,11 @@ static inline double sp_combined(const sp_criterion *criterion, double all, doub
 {
     return criterion->combine == SP_COMBINE_SINGLE ? fmax(all, one) : all + one;
 }
+/* The share of a patch that is covered by what all nozzles bring, as sp_deposits has it. */
+static inline double sp_share_covered(const sp_criterion *criterion, double even, double dry, double film)
+{
+    const sp_wetting wetting = {even, dry, 0};
+    return criterion->film > 0 && film >= criterion->film ? 1 : sp_wetting_share(&wetting, criterion->flux);
+}
 
 #endif
