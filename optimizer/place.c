@@ -181,7 +181,7 @@ static bool write_greedy(sp_placement *placement, sp_proposal *proposal, sp_erro
                         proposal->greedy_coverage->covered_area, error);
 }
 
-/* Drafts are as far off as the best of them is by now. */
+/* By what the scene says of the best draft of now. */
 static bool aim_again(sp_placement *placement, const sp_proposal *proposal, sp_error *error)
 {
     sp_layout *layout = NULL;

@@ -5,7 +5,6 @@
 #include "refine/local_search.h"
 #include "search/front.h"
 
-
 typedef struct {
     const sp_search *search;
     const sp_pool *pool;
