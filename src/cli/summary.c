@@ -394,7 +394,7 @@ static void print_proofs(const sp_result *result)
         printf(
             "\nThe coverage of the layouts counts liquid that walls throw back. The search goes by first impacts and "
             "puts the nozzles\nthat it found together anew with it; what is counted again and proved below is "
-            "without it.\n");
+            "by first impacts alone,\nand layouts may cover more than that says.\n");
     if (result->proposal && !sp_result_has_alternatives(result)) {
         print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);

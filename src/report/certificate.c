@@ -39,10 +39,13 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
 }
 
 /* What is proved of one proposal. */
-static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
+static void add_proof(const sp_proposal *proposal, sp_text *text, bool thrown_back, bool only)
 {
     const sp_certificate *found = &proposal->certificate;
     bool one = found->candidates == 1;
+    if (thrown_back)
+        sp_text_add(text, "<p>What follows is by first impacts alone: what walls throw back, which the other figures "
+                          "count, may cover more, for this layout as for any other.</p>\n");
     sp_text_add(text,
                 "<p>Among %s %zu candidate pose%s "
                 "and the proposal&#39;s own, on %zu texels, no layout reaches ",
@@ -71,13 +74,14 @@ static void add_proofs(const sp_page *page, sp_text *text)
 {
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_proposal *alternative = page->result->designs[i].alternative;
+        bool thrown_back = sp_evaluator_counts_thrown_back(page->result->designs[i].evaluator);
         if (!alternative)
             continue;
         sp_text_add(text, "<div class=\"block\"><h3>");
         sp_page_name(page, text, i);
         sp_text_add(text, "</h3>\n");
         if (alternative->certificate.computed)
-            add_proof(alternative, text, false);
+            add_proof(alternative, text, thrown_back, false);
         else
             sp_text_add(text, "<p>Nothing is proved of how much better its layout could be.</p>\n");
         sp_text_add(text, "</div>\n");
@@ -102,7 +106,7 @@ void sp_page_certificate(const sp_page *page, sp_text *text)
     if (page->alternatives)
         add_proofs(page, text);
     else
-        add_proof(page->result->proposal, text, true);
+        add_proof(page->result->proposal, text, sp_result_counts_thrown_back(page->result), true);
     sp_text_add(
         text,
         "<p class=\"note\">%sProved, by Lagrangian duality where not every layout was looked at, for every choice "

@@ -118,11 +118,13 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t 
     }
 }
 
-/* Whether a line is drawn of what is proved of a design's front. */
+/* Whether a line is drawn of what is proved of a design's front. Nothing is where what walls throw back counts: what is
+ * proved is without it. */
 static bool has_bound(const sp_page *page, size_t design)
 {
     const sp_proposal *proposal = front_of(page, design);
-    return proposal && proposal->certificate.computed && proposal->front_count > 0;
+    return proposal && proposal->certificate.computed && proposal->front_count > 0 &&
+           !sp_evaluator_counts_thrown_back(page->result->designs[design].evaluator);
 }
 
 /* Fronts, and how many of them have such a line: each alternative is searched, and proved, for itself. */

@@ -71,7 +71,8 @@ static void what_the_search_does_not_count_is_told(void **state)
     (void)state;
     static const char told[] = "The coverage of the layouts counts liquid that walls throw back. The search goes by "
                                "first impacts and puts the nozzles\nthat it found together anew with it; what is "
-                               "counted again and proved below is without it.";
+                               "counted again and proved below is by first impacts alone,\nand layouts may "
+                               "cover more than that says.";
     char scene[sizeof room_yaml + 64];
     const char *at = strstr(room_yaml, "room.obj\n") + strlen("room.obj\n");
     snprintf(scene, sizeof scene, "%.*s    restitution: 0.5\n%s", (int)(at - room_yaml), room_yaml, at);
@@ -88,6 +89,10 @@ static void what_the_search_does_not_count_is_told(void **state)
         assert_int_equal(strstr(done.out, told) != NULL, i == 0);
         assert_int_equal(strstr(page, "id=\"thrown-back\">The coverage of the layouts counts liquid") != NULL, i == 0);
         assert_int_equal(strstr(page, "gets liquid to them, thrown back by walls or not") != NULL, i == 0);
+        /* no line of what none covers more than where layouts do */
+        assert_non_null(strstr(page, "<section id=\"certificate\">"));
+        assert_int_equal(strstr(page, "<path class=\"bound\"") != NULL, i == 1);
+        assert_int_equal(strstr(page, "What follows is by first impacts alone") != NULL, i == 0);
         free(page);
         forget(&done);
     }
