@@ -116,6 +116,9 @@ static void what_is_none_is_refused(void **state)
         refuse(paths[i], 1, SP_ERROR_INPUT, "");
         assert_int_equal(remove(paths[i]), 0);
     }
+    put_file("binary.brep", "\nOpen CASCADE Topology V4, (c) Open Cascade\n\x01\x02");
+    refuse("binary.brep", 1, SP_ERROR_INPUT, "found a binary BREP file, expected one of text, or STEP");
+    assert_int_equal(remove("binary.brep"), 0);
     assert_int_equal(mkdir("folder.step", 0755), 0);
     refuse("folder.step", 1, SP_ERROR_INPUT, "no regular file");
     assert_int_equal(rmdir("folder.step"), 0);

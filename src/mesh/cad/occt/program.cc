@@ -520,6 +520,15 @@ void read_iges(const char *file, Model &model, const Message_ProgressRange &rang
     model.add(reader.OneShape(), TopLoc_Location(), std::string(2, '\0'));
 }
 
+/* Whether it begins as OpenCASCADE's binary form does. */
+bool is_binary_brep(std::istream &file)
+{
+    static const std::string begin = "Open CASCADE Topology";
+    std::string found(begin.size(), '\0');
+    (file >> std::ws).read(&found[0], found.size());
+    return found == begin;
+}
+
 /* OpenCASCADE would read on behind the end of a file that was cut, for ever. */
 void read_brep(const char *file, Model &model)
 {
@@ -529,6 +538,10 @@ void read_brep(const char *file, Model &model)
     std::ifstream text(file);
     if (!text)
         throw std::runtime_error(damaged);
+    if (is_binary_brep(text))
+        throw std::runtime_error("found a binary BREP file, expected one of text, or STEP");
+    text.clear();
+    text.seekg(0);
     try {
         text.exceptions(std::ios::failbit | std::ios::badbit);
         BRepTools::Read(shape, text, builder);
