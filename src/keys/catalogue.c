@@ -37,7 +37,8 @@ static const char *const words_trajectory[] = {"auto", "line", "parabola", "drag
         .says = "Of measured, which needs it: a file beside the catalogue (PNG, TIFF, OpenEXR, PFM): columns are "     \
                 "azimuth from x towards y, rows "                                                                      \
                 "polar angle from "                                                                                    \
-                "the axis to half of `angle`, values liquid per solid angle in any measure. A second channel is "      \
+                "the axis to half of `angle`, values liquid per solid angle in any measure at the centres of pixels, " \
+                "interpolated between them. A second channel is "                                                      \
                 "speed, as a share of "                                                                                \
                 "the exit speed"                                                                                       \
     }
