@@ -88,13 +88,7 @@ static void job_close(job *j)
 static double area_of(const job *j, const sp_partial *partial)
 {
     sp_error error = {0};
-    sp_layout *layout = sp_partial_to_layout(&j->ready.search, partial, &error);
-    sp_coverage *coverage = sp_evaluate(j->room.evaluator, layout, &error);
-    assert_non_null(coverage);
-    double area = coverage->covered_area;
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(layout);
-    return area;
+    return room_area_of(&j->room, sp_partial_to_layout(&j->ready.search, partial, &error));
 }
 
 static void draft_all(job *j)

@@ -116,6 +116,18 @@ static inline sp_place_options room_options(void)
     return options;
 }
 
+/* m² that a layout covers, as the scene says; takes the layout. */
+static inline double room_area_of(const room *r, sp_layout *layout)
+{
+    sp_error error = {0};
+    sp_coverage *coverage = sp_evaluate(r->evaluator, layout, &error);
+    assert_non_null(coverage);
+    double area = coverage->covered_area;
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(layout);
+    return area;
+}
+
 /* What every proposal must hold. */
 static inline void room_check(const sp_proposal *proposal, const sp_place_options *options)
 {

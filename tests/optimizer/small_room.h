@@ -73,13 +73,7 @@ static inline sp_proposal *job_place(job *j)
 static inline double area_of(const job *j, const sp_nozzle *nozzles, size_t count)
 {
     sp_error error = {0};
-    sp_layout *layout = sp_layout_create(nozzles, count, &error);
-    sp_coverage *coverage = sp_evaluate(j->room.evaluator, layout, &error);
-    assert_non_null(coverage);
-    double area = coverage->covered_area;
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(layout);
-    return area;
+    return room_area_of(&j->room, sp_layout_create(nozzles, count, &error));
 }
 
 /* One of the five places with one of the first two types. */
