@@ -115,7 +115,7 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
 
 sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better)
 {
-    const sp_front *front = refining->front;
+    sp_front *front = refining->front;
     const sp_partial **partials = calloc(trials->count + 1, sizeof *partials);
     sp_front_point *points = malloc((trials->count + 1) * sizeof *points);
     bool done = (partials && points) || sp_fail_memory(refining->error);

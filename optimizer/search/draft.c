@@ -148,6 +148,7 @@ bool sp_draft_count(sp_front *front, const sp_search *search, double target, sp_
     list(&d);
     *front = sp_front_anew(&d.front);
     front->draft_jets = 0;
+    sp_flown_free(&front->flown);
     front->target = target;
     bool done = sp_front_measure(front, search, &d.front.best, NULL, error) && reach(&d, front, search, error) &&
                 count_all(&d, front, search, error);

@@ -106,27 +106,20 @@ static bool number_layouts(const sp_search *search, const sp_poses_alone *poses,
 
 static void free_together(sp_alone *together)
 {
-    for (size_t i = 1; together && i <= SP_EVERY_NOZZLES; i++) {
-        free(together[i].even);
-        free(together[i].dry);
-        free(together[i].film);
-    }
+    for (size_t i = 1; together && i <= SP_EVERY_NOZZLES; i++)
+        sp_alone_free(&together[i]);
     free(together);
 }
 
 /* The first is the kept nozzles' own, borrowed. */
 static sp_alone *create_together(const sp_poses_alone *poses)
 {
-    const sp_alone *kept = &poses->alone[poses->count];
-    size_t bytes = (poses->patches + 1) * sizeof(double);
     sp_alone *together = calloc(SP_EVERY_NOZZLES + 1, sizeof *together);
     bool done = together != NULL;
-    for (size_t i = 1; done && i <= SP_EVERY_NOZZLES; i++) {
-        together[i] = (sp_alone){malloc(bytes), malloc(bytes), kept->film ? malloc(bytes) : NULL};
-        done = together[i].even && together[i].dry && (together[i].film || !kept->film);
-    }
+    for (size_t i = 1; done && i <= SP_EVERY_NOZZLES; i++)
+        done = sp_alone_create(poses->evaluator, NULL, &together[i], NULL);
     if (done) {
-        together[0] = *kept;
+        together[0] = poses->alone[poses->count];
         return together;
     }
     free_together(together);

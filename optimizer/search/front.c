@@ -15,13 +15,16 @@ static double tie_of(const sp_front *front)
     return SP_TIE * sp_evaluator_patches(front->fine)->total_area;
 }
 
-sp_front sp_front_anew(const sp_front *front)
+sp_front sp_front_anew(sp_front *front)
 {
-    return (sp_front){.fine = front->fine,
-                      .draft_jets = front->draft_jets,
-                      .deadline = front->deadline,
-                      .objective = front->objective,
-                      .target = front->target};
+    sp_front anew = {.fine = front->fine,
+                     .draft_jets = front->draft_jets,
+                     .flown = front->flown,
+                     .deadline = front->deadline,
+                     .objective = front->objective,
+                     .target = front->target};
+    front->flown = (sp_flown){0};
+    return anew;
 }
 
 static bool less_outlay(const sp_front_point *a, const sp_front_point *b)
@@ -107,12 +110,19 @@ static bool flies_jets(const sp_front *front)
     return sp_evaluator_fidelity(front->fine)->method == SP_METHOD_FORWARD;
 }
 
-static sp_coverage *evaluate(const sp_front *front, const sp_search *search, const sp_layout *layout, sp_error *error)
+/* m² that the layout covers. */
+static bool evaluate(sp_front *front, const sp_search *search, const sp_layout *layout, double *area, sp_error *error)
 {
-    if (!front->draft_jets)
-        return sp_evaluate(front->fine, layout, error);
-    uint64_t jets = front->draft_jets * (layout->count ? layout->count : 1);
-    return sp_evaluate_forward(search->coarse, layout, sp_evaluator_fidelity(front->fine)->reflections, jets, error);
+    if (flies_jets(front)) {
+        const sp_evaluator *evaluator = front->draft_jets ? search->coarse : front->fine;
+        int reflections = sp_evaluator_fidelity(front->fine)->reflections;
+        return sp_flown_area(&front->flown, evaluator, front->draft_jets, reflections, layout, area, error);
+    }
+    sp_coverage *coverage = sp_evaluate(front->fine, layout, error);
+    bool done = coverage != NULL;
+    *area = done ? coverage->covered_area : 0;
+    sp_coverage_destroy(coverage);
+    return done;
 }
 
 /* Jets take so long that each layout may be the last for which there is time. */
@@ -124,32 +134,32 @@ static bool has_time(const sp_front *front)
     return false;
 }
 
-static bool measure(const sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
+static bool measure(sp_front *front, const sp_search *search, const sp_partial *partial, sp_front_point *point,
                     sp_error *error)
 {
+    double area;
     sp_layout *layout = sp_partial_to_layout(search, partial, error);
-    sp_coverage *coverage = layout ? evaluate(front, search, layout, error) : NULL;
-    if (coverage)
-        *point = (sp_front_point){.flow = coverage->flow,
-                                  .area = coverage->covered_area,
+    bool done = layout && evaluate(front, search, layout, &area, error);
+    if (done)
+        *point = (sp_front_point){.flow = sp_layout_flow(layout, &sp_evaluator_setup(front->fine)->liquid),
+                                  .area = area,
                                   .nozzles = layout->count,
                                   .counted = NAN,
                                   .bound = NAN,
                                   .every_aim_bound = NAN,
-                                  .fittings = fittings_of(search, partial),
-                                  .outlay = coverage->flow + sp_partial_costs(search, partial)};
-    bool done = coverage != NULL;
-    sp_coverage_destroy(coverage);
+                                  .fittings = fittings_of(search, partial)};
+    if (done)
+        point->outlay = point->flow + sp_partial_costs(search, partial);
     sp_layout_destroy(layout);
     return done;
 }
 
 /* Those that are this rank's, at once. */
-static bool measure_own(const sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
+static bool measure_own(sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
                         sp_front_point *points, sp_error *error)
 {
     sp_error failure = {0};
-    /* jets tell the caller how far they are, which only one thread may */
+    /* jets tell the caller how far they are, and find what was flown before, which only one thread may */
     int threads = flies_jets(front) ? 1 : sp_threads(&search->options->run);
     sp_ranks_part(search->options->run.ranks);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
@@ -167,8 +177,8 @@ static bool measure_own(const sp_front *front, const sp_search *search, const sp
            sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
 
-bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
-                            size_t count, sp_front_point *points, sp_error *error)
+bool sp_front_measure_ahead(sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
+                            sp_front_point *points, sp_error *error)
 {
     sp_ranks *ranks = search->options->run.ranks;
     sp_outgoing outgoing = {0};
@@ -319,5 +329,6 @@ void sp_front_free(sp_front *front)
     list_free(&front->by_water);
     list_free(&front->by_number);
     sp_partial_free(&front->best);
+    sp_flown_free(&front->flown);
     *front = (sp_front){0};
 }

@@ -5,6 +5,7 @@
 
 #include "deadline/deadline.h"
 #include "scoring/partial.h"
+#include "search/flown.h"
 
 #include <math.h>
 
@@ -24,7 +25,9 @@ typedef struct {
 
 typedef struct {
     const sp_evaluator *fine;
-    uint64_t draft_jets; /* of a nozzle, on the search's patches; 0: layouts are measured as the scene says */
+    uint64_t draft_jets; /* of a nozzle, on the search's patches; 0: layouts are measured as the scene says; stays what
+                          * it is from the first layout on */
+    sp_flown flown;      /* where jets tell what layouts cover */
     sp_deadline *deadline;
     sp_objective objective;
     double target; /* m² */
@@ -54,8 +57,8 @@ static inline bool sp_front_saves(const sp_front *front)
     return front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
 }
 
-/* An empty one that measures as `front` does, for the same target. */
-sp_front sp_front_anew(const sp_front *front);
+/* An empty one that measures as `front` does, for the same target; what was flown becomes its own. */
+sp_front sp_front_anew(sp_front *front);
 /* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
 /* For another target from now on; the best becomes that by it. */
@@ -65,8 +68,8 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_partial
                       sp_error *error);
 /* Measures layouts, NULL for none, at once, of several ranks each some of them, and notes nothing: points [count], of
  * which those that nobody has measured have an area of -1. Jets are flown for as many as there is time for. */
-bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_partial *const *partials,
-                            size_t count, sp_front_point *points, sp_error *error);
+bool sp_front_measure_ahead(sp_front *front, const sp_search *search, const sp_partial *const *partials, size_t count,
+                            sp_front_point *points, sp_error *error);
 /* Measures and notes layouts, measured ahead. */
 bool sp_front_measure_all(sp_front *front, const sp_search *search, const sp_partial *partials, size_t count,
                           sp_error *error);

@@ -1,7 +1,6 @@
 #include "search/poses_alone.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define NUMBERS_MOST 2e7 /* that may be kept, of 8 bytes */
 #define SLOW 10          /* times as long as others poses take that no sweep knows, or whose liquid is followed */
@@ -27,14 +26,6 @@ static bool list_site(const sp_search *search, uint32_t site, sp_poses_alone *po
     return true;
 }
 
-static bool allocate(const sp_poses_alone *poses, sp_alone *alone, sp_error *error)
-{
-    bool film = sp_evaluator_setup(poses->evaluator)->criterion.film > 0;
-    size_t bytes = (poses->patches + 1) * sizeof(double);
-    *alone = (sp_alone){malloc(bytes), malloc(bytes), film ? malloc(bytes) : NULL};
-    return (alone->even && alone->dry && (alone->film || !film)) || sp_fail_memory(error);
-}
-
 bool sp_poses_alone_list(const sp_search *search, const sp_evaluator *evaluator, size_t most, sp_poses_alone *poses,
                          sp_error *error)
 {
@@ -53,8 +44,6 @@ bool sp_poses_alone_list(const sp_search *search, const sp_evaluator *evaluator,
     bool done = true;
     for (uint32_t site = 0; done && site < search->sites->count; site++)
         done = list_site(search, site, poses, error);
-    for (size_t i = 0; done && i <= poses->count; i++)
-        done = allocate(poses, &poses->alone[i], error);
     return done;
 }
 
@@ -62,14 +51,9 @@ static bool evaluate(const sp_poses_alone *poses, sp_nozzle *nozzles, size_t cou
 {
     const sp_layout layout = {.count = count, .nozzles = nozzles};
     sp_coverage *coverage = sp_evaluate(poses->evaluator, &layout, error);
-    if (!coverage)
-        return false;
-    memcpy(alone->even, coverage->deposits.even, poses->patches * sizeof *alone->even);
-    memcpy(alone->dry, coverage->deposits.dry, poses->patches * sizeof *alone->dry);
-    if (alone->film)
-        memcpy(alone->film, coverage->deposits.film, poses->patches * sizeof *alone->film);
+    bool done = coverage && sp_alone_create(poses->evaluator, coverage, alone, error);
     sp_coverage_destroy(coverage);
-    return true;
+    return done;
 }
 
 bool sp_poses_alone_evaluate(const sp_search *search, sp_deadline *deadline, const char *stage, sp_poses_alone *poses,
@@ -92,11 +76,8 @@ bool sp_poses_alone_evaluate(const sp_search *search, sp_deadline *deadline, con
 
 void sp_poses_alone_free(sp_poses_alone *poses)
 {
-    for (size_t i = 0; poses->alone && i <= poses->count; i++) {
-        free(poses->alone[i].even);
-        free(poses->alone[i].dry);
-        free(poses->alone[i].film);
-    }
+    for (size_t i = 0; poses->alone && i <= poses->count; i++)
+        sp_alone_free(&poses->alone[i]);
     free(poses->poses);
     free(poses->alone);
     free(poses->area);

@@ -1,15 +1,10 @@
-/* What each of a few candidate poses does alone, on the patches that layouts are measured on. Liquid of one nozzle does
- * not depend on the others', so that what several do together follows from these. */
+/* What each of a few candidate poses does alone, on the patches that layouts are measured on. */
 #ifndef OPTIMIZER_POSES_ALONE_H
 #define OPTIMIZER_POSES_ALONE_H
 
 #include "deadline/deadline.h"
 #include "scoring/search.h"
-
-/* On every patch, as sp_deposits has them; film NULL where none is asked for. */
-typedef struct {
-    double *even, *dry, *film;
-} sp_alone;
+#include "spray/alone.h"
 
 typedef struct {
     const sp_evaluator *evaluator;

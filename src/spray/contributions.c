@@ -1,70 +1,54 @@
-/* What each nozzle does by itself, and what is lost without it. Liquid of one does not depend on the others, whichever
- * way it flies or runs down: what any of them do together follows from what each does alone. */
+/* What each nozzle does by itself, and what is lost without it. */
+#include "spray/alone.h"
 #include "spray/criterion.h"
 #include "spray/state/state.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What decides whether a patch is covered, of each nozzle alone: as sp_deposits, [nozzles][patches]. */
 typedef struct {
     const sp_evaluator *evaluator;
     size_t count, patches;
-    double *even, *dry;
-    double *film; /* NULL where the criterion does not ask for it */
-    bool *edges;  /* [nozzles], whether its edges count, of those that are looked at: no other repeats it */
+    sp_alone *alone; /* [nozzles] */
+    bool *edges;     /* [nozzles], whether its edges count, of those that are looked at: no other repeats it */
 } shares;
 
 static bool shares_create(const sp_evaluator *evaluator, size_t count, shares *each, sp_error *error)
 {
-    bool film = evaluator->setup.criterion.film > 0;
-    size_t patches = evaluator->patches.count, room = count * patches + 1;
     *each = (shares){.evaluator = evaluator,
                      .count = count,
-                     .patches = patches,
-                     .even = malloc(room * sizeof *each->even),
-                     .dry = malloc(room * sizeof *each->dry),
-                     .film = film ? malloc(room * sizeof *each->film) : NULL,
+                     .patches = evaluator->patches.count,
+                     .alone = calloc(count + 1, sizeof *each->alone),
                      .edges = malloc(count + 1)};
-    return (each->even && each->dry && (each->film || !film) && each->edges) || sp_fail_memory(error);
+    return (each->alone && each->edges) || sp_fail_memory(error);
 }
 
 static void shares_free(shares *each)
 {
-    free(each->even);
-    free(each->dry);
-    free(each->film);
+    for (size_t i = 0; each->alone && i < each->count; i++)
+        sp_alone_free(&each->alone[i]);
+    free(each->alone);
     free(each->edges);
 }
 
-static void keep(const sp_coverage *alone, size_t nozzle, shares *each, sp_contributions *made)
+static bool keep(const sp_coverage *coverage, size_t nozzle, shares *each, sp_contributions *made, sp_error *error)
 {
-    const sp_deposits *deposits = &alone->deposits;
-    size_t first = nozzle * each->patches;
-    made->alone[nozzle] = alone->covered_area;
-    for (size_t i = 0; i < each->patches; i++) {
-        made->flux[first + i] = (float)deposits->flux[i];
-        each->even[first + i] = deposits->even[i];
-        each->dry[first + i] = deposits->dry[i];
-        if (each->film)
-            each->film[first + i] = deposits->film[i];
-    }
+    made->alone[nozzle] = coverage->covered_area;
+    for (size_t i = 0; i < each->patches; i++)
+        made->flux[nozzle * each->patches + i] = (float)coverage->deposits.flux[i];
+    return sp_alone_create(each->evaluator, coverage, &each->alone[nozzle], error);
 }
 
 static bool evaluate_alone(const sp_layout *layout, const sp_coverage *coverage, shares *each, sp_contributions *made,
                            sp_error *error)
 {
-    if (layout->count == 1) {
-        keep(coverage, 0, each, made);
-        return true;
-    }
+    if (layout->count == 1)
+        return keep(coverage, 0, each, made, error);
     bool done = true;
     for (size_t i = 0; done && i < layout->count; i++) {
         const sp_layout one = {.count = 1, .nozzles = &layout->nozzles[i]};
         sp_coverage *alone = sp_evaluate(each->evaluator, &one, error);
-        done = alone != NULL;
-        if (alone)
-            keep(alone, i, each, made);
+        done = alone && keep(alone, i, each, made, error);
         sp_coverage_destroy(alone);
     }
     return done;
@@ -77,13 +61,13 @@ static double share_without(const shares *each, size_t nozzle, size_t patch)
     sp_wetting others = {0, 1, 0};
     double film = 0;
     for (size_t i = 0; i < each->count; i++) {
-        size_t at = i * each->patches + patch;
+        const sp_alone *alone = &each->alone[i];
         if (i == nozzle)
             continue;
-        others.even = sp_combined(criterion, others.even, each->even[at]);
+        others.even = sp_combined(criterion, others.even, alone->even[patch]);
         if (each->edges[i])
-            others.dry *= each->dry[at];
-        film += each->film ? each->film[at] : 0;
+            others.dry *= alone->dry[patch];
+        film += alone->film ? alone->film[patch] : 0;
     }
     return sp_share_covered(criterion, others.even, others.dry, film);
 }
@@ -105,10 +89,10 @@ static bool find_edges(const sp_layout *layout, size_t nozzle, shares *each, sp_
 /* Nothing is lost where it brings nothing that counts. */
 static double lost_without(const shares *each, size_t nozzle, const sp_coverage *coverage)
 {
+    const sp_alone *alone = &each->alone[nozzle];
     double lost = 0;
     for (size_t i = 0; i < each->patches; i++) {
-        size_t at = nozzle * each->patches + i;
-        if (each->even[at] > 0 || each->dry[at] < 1 || (each->film && each->film[at] > 0))
+        if (alone->even[i] > 0 || alone->dry[i] < 1 || (alone->film && alone->film[i] > 0))
             lost += (coverage->deposits.share[i] - share_without(each, nozzle, i)) *
                     sp_evaluator_counted(each->evaluator, (uint32_t)i);
     }

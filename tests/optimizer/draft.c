@@ -1,4 +1,5 @@
 /* Drafts of layouts by few jets, and their count as the scene says. */
+#include "bouncing_room.h"
 #include "prepared.h"
 
 #include "search/draft.h"
@@ -36,22 +37,7 @@ static void make_layouts(job *j)
 static void job_open(job *j)
 {
     *j = (job){.pressure = 2e5};
-    room_builder b = {0};
-    sp_error error = {0};
-    room_box(&b, sp_v(-1, -0.7, 0), sp_v(1, 0.7, 1.2), "walls", "lid");
-    j->room.setup = sp_setup_default();
-    j->room.setup.criterion.flux = LITRES_PER_MINUTE;
-    room_open(&j->room, &b, TEXEL);
-    sp_evaluator_destroy(j->room.evaluator);
-    for (size_t i = 0; i < j->room.mesh->part_count; i++) {
-        j->room.surfaces[i].restitution = 0.5;
-        j->room.surfaces[i].rebound = 0.6;
-    }
-    j->room.setup.fidelity.method = SP_METHOD_FORWARD;
-    j->room.setup.fidelity.reflections = 2;
-    j->room.setup.fidelity.jets = JETS;
-    j->room.evaluator = sp_evaluator_create(&j->room.setup, &error);
-    assert_non_null(j->room.evaluator);
+    bouncing_room_open(&j->room, TEXEL, JETS);
     j->type = room_cone("cone", 90 * DEGREE, 4);
     j->type_list[0] = &j->type;
     j->options = room_options();

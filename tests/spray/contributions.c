@@ -1,6 +1,8 @@
 /* What is lost without a nozzle, against evaluating the layout without it, whatever liquid does and whatever counts. */
 #include "shapes.h"
 
+#include "spray/alone.h"
+
 #include <math.h>
 
 #define NOZZLES 4
@@ -92,6 +94,25 @@ static void near(double value, double expected)
         fail_msg("%.12g found, %.12g expected", value, expected);
 }
 
+/* What the nozzles cover, from what each does alone. */
+static double joined(const room *r, const sp_layout *layout)
+{
+    sp_error error = {0};
+    sp_alone all, one;
+    assert_true(sp_alone_create(r->evaluator, NULL, &all, &error));
+    for (size_t i = 0; i < layout->count; i++) {
+        const sp_layout single = {.count = 1, .nozzles = &layout->nozzles[i]};
+        sp_coverage *coverage = sp_evaluate(r->evaluator, &single, &error);
+        assert_true(coverage && sp_alone_create(r->evaluator, coverage, &one, &error));
+        sp_alone_join(r->evaluator, &all, &one, !sp_layout_repeats(layout, i));
+        sp_alone_free(&one);
+        sp_coverage_destroy(coverage);
+    }
+    double area = sp_alone_covered(r->evaluator, &all);
+    sp_alone_free(&all);
+    return area;
+}
+
 static void compare(const room *r, const sp_layout *layout)
 {
     sp_error error = {0};
@@ -110,6 +131,7 @@ static void compare(const room *r, const sp_layout *layout)
         shared += fabs(does->alone[i] - does->lost[i]);
     }
     assert_true(worth > 0.01 && shared > 0.01);
+    near(joined(r, layout), coverage->covered_area);
     sp_contributions_destroy(does);
     sp_coverage_destroy(coverage);
 }
