@@ -1,5 +1,5 @@
 /* Bounds against every layout there is, on instances small enough to try them all. */
-#include "every_layout.h"
+#include "exhaustive.h"
 #include "stored.h"
 
 #define ROUNDS 6

@@ -1,5 +1,5 @@
 /* Layouts looked at one by one against every layout there is, on instances small enough to try them all. */
-#include "every_layout.h"
+#include "exhaustive.h"
 #include "stored.h"
 
 #include "bound/bit_rows.h"

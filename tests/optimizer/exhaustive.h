@@ -1,6 +1,6 @@
 /* Every layout of an instance small enough to try them all. */
-#ifndef EVERY_LAYOUT_H
-#define EVERY_LAYOUT_H
+#ifndef EXHAUSTIVE_H
+#define EXHAUSTIVE_H
 
 #include "instance.h"
 
