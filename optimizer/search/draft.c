@@ -21,7 +21,10 @@ uint64_t sp_draft_jets(const sp_search *search, const sp_evaluator *fine)
 
 bool sp_draft_aim(sp_front *front, const sp_search *search, double target, double area, sp_error *error)
 {
-    return !front->draft_jets || sp_front_aim(front, search, target + front->measured.area - area, error);
+    if (!front->draft_jets)
+        return true;
+    double flattery = front->measured.area - area;
+    return sp_front_count_best(front, search, area, error) && sp_front_aim(front, search, target + flattery, error);
 }
 
 /* Layouts of a front of drafts: those by water, and those by number that are not among them. */
@@ -136,6 +139,27 @@ static bool count_all(drafts *d, sp_front *front, const sp_search *search, sp_er
     return done;
 }
 
+/* What has been counted on the way is known for nothing, however short the time is. */
+static bool enter_counted(sp_front *front, const sp_search *search, sp_error *error)
+{
+    bool done = true;
+    for (size_t i = 0; done && i < front->counted.count; i++)
+        done =
+            sp_front_note(front, search, &front->counted.entries[i].partial, &front->counted.entries[i].point, error);
+    return done;
+}
+
+static bool count_best(const drafts *d, sp_front *front, const sp_search *search, sp_error *error)
+{
+    const sp_partial *best = &d->front.best;
+    for (size_t i = 0; i < front->counted.count; i++) {
+        const sp_partial *counted = &front->counted.entries[i].partial;
+        if (counted->count == best->count && counted->outlay == best->outlay && counted->covered == best->covered)
+            return true;
+    }
+    return sp_front_measure(front, search, best, NULL, error);
+}
+
 bool sp_draft_count(sp_front *front, const sp_search *search, double target, sp_error *error)
 {
     if (!front->draft_jets)
@@ -150,8 +174,8 @@ bool sp_draft_count(sp_front *front, const sp_search *search, double target, sp_
     front->draft_jets = 0;
     sp_flown_free(&front->flown);
     front->target = target;
-    bool done = sp_front_measure(front, search, &d.front.best, NULL, error) && reach(&d, front, search, error) &&
-                count_all(&d, front, search, error);
+    bool done = enter_counted(front, search, error) && count_best(&d, front, search, error) &&
+                reach(&d, front, search, error) && count_all(&d, front, search, error);
     sp_front_free(&d.front);
     drafts_free(&d);
     return done;

@@ -19,10 +19,12 @@ sp_front sp_front_anew(sp_front *front)
 {
     sp_front anew = {.fine = front->fine,
                      .draft_jets = front->draft_jets,
+                     .counted = front->counted,
                      .flown = front->flown,
                      .deadline = front->deadline,
                      .objective = front->objective,
                      .target = front->target};
+    front->counted = (sp_front_list){0};
     front->flown = (sp_flown){0};
     return anew;
 }
@@ -197,6 +199,19 @@ bool sp_front_measure_ahead(sp_front *front, const sp_search *search, const sp_p
     return true;
 }
 
+bool sp_front_count_best(sp_front *front, const sp_search *search, double area, sp_error *error)
+{
+    sp_front_list *list = &front->counted;
+    sp_partial copy;
+    if (!sp_grow(&list->entries, &list->capacity, list->count + 1, sizeof *list->entries))
+        return sp_fail_memory(error);
+    if (!sp_partial_copy(search, &front->best, &copy, error))
+        return false;
+    list->entries[list->count] = (sp_front_entry){front->measured, copy};
+    list->entries[list->count++].point.area = area;
+    return true;
+}
+
 /* A copy as the best. */
 static bool keep(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
                  sp_error *error)
@@ -328,6 +343,7 @@ void sp_front_free(sp_front *front)
 {
     list_free(&front->by_water);
     list_free(&front->by_number);
+    list_free(&front->counted);
     sp_partial_free(&front->best);
     sp_flown_free(&front->flown);
     *front = (sp_front){0};

@@ -156,10 +156,49 @@ static void the_aim_rises_by_what_drafts_flatter(void **state)
     job_close(&j);
 }
 
+/* However short the time is. */
+static void what_was_counted_stays(void **state)
+{
+    (void)state;
+    job j;
+    sp_error error = {0};
+    job_open(&j);
+    draft_all(&j);
+    const sp_front_list *list = &j.front.by_water;
+    double most = list->entries[list->count - 1].point.area, told = j.front.measured.area - 1e-3;
+    sp_front_point first = j.front.measured;
+    assert_true(sp_draft_aim(&j.front, &j.ready.search, most - 1e-3, told, &error));
+    assert_true(j.front.measured.outlay > first.outlay);
+    j.ready.deadline.run.time_limit = 1e-9;
+    assert_true(sp_draft_count(&j.front, &j.ready.search, told, &error));
+    assert_int_equal(j.front.by_water.count, 2);
+    assert_true(j.front.measured.area == told && j.front.measured.outlay == first.outlay);
+    job_close(&j);
+}
+
+static void what_was_counted_is_not_counted_again(void **state)
+{
+    (void)state;
+    job j;
+    sp_error error = {0};
+    job_open(&j);
+    draft_all(&j);
+    double told = j.front.measured.area - 1e-3;
+    assert_true(sp_draft_aim(&j.front, &j.ready.search, 0, told, &error));
+    j.ready.deadline.run.time_limit = 1e-9;
+    assert_true(sp_draft_count(&j.front, &j.ready.search, 0, &error));
+    assert_int_equal(j.front.by_water.count, 1);
+    assert_true(j.front.measured.area == told);
+    job_close(&j);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(many_jets_want_drafts), cmocka_unit_test(drafts_are_counted),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(many_jets_want_drafts),
+                                       cmocka_unit_test(drafts_are_counted),
                                        cmocka_unit_test(without_time_the_best_is_counted),
-                                       cmocka_unit_test(the_aim_rises_by_what_drafts_flatter)};
+                                       cmocka_unit_test(the_aim_rises_by_what_drafts_flatter),
+                                       cmocka_unit_test(what_was_counted_stays),
+                                       cmocka_unit_test(what_was_counted_is_not_counted_again)};
     return cmocka_run_group_tests_name("draft", tests, NULL, NULL);
 }
