@@ -211,19 +211,23 @@ static json_t *designs_json(const sp_page *page, type_rows *rows)
     return list;
 }
 
-static json_t *mount_json(const sp_mount *mount, type_rows *rows)
+/* `types` are the rows that fit, of all that may be chosen. Limits differ from one alternative to the next: with these
+ * none is told of how many nozzles the mount takes, which is one for ports. */
+static json_t *mount_json(const sp_mount *mount, const type_rows *rows, bool limits)
 {
     static const char *const kinds[] = {"port", "surface", "line", "box"};
     json_t *types = json_array();
-    for (size_t i = 0; i < mount->type_count; i++)
-        if (!stays_behind(mount->types[i]))
-            json_array_append_new(types, json_integer((json_int_t)row_of(rows, mount->types[i])));
-    return json_pack(
-        "{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind], "name",
-        text_json(mount->name), "position", vector_json(mount->position), "axis", vector_json(mount->axis), "tilt",
-        mount->tilt, "depth", mount->depth_from, mount->depth_to, "geometry", (json_int_t)mount->geometry, "part",
-        mount->part == SP_NONE ? (json_int_t)-1 : (json_int_t)mount->part, "standoff", mount->standoff, "cost",
-        mount->cost, "from", vector_json(mount->from), "to", vector_json(mount->to), "types", types);
+    for (size_t i = 0; i < rows->named; i++)
+        if (sp_mount_takes(mount, rows->types[i]))
+            json_array_append_new(types, json_integer((json_int_t)i));
+    size_t most = mount->kind == SP_MOUNT_PORT ? 1 : limits ? mount->most : 0;
+    return json_pack("{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:f, s:o, s:o, s:o, s:I}", "kind",
+                     kinds[mount->kind], "name", text_json(mount->name), "position", vector_json(mount->position),
+                     "axis", vector_json(mount->axis), "tilt", mount->tilt, "depth", mount->depth_from, mount->depth_to,
+                     "geometry", (json_int_t)mount->geometry, "part",
+                     mount->part == SP_NONE ? (json_int_t)-1 : (json_int_t)mount->part, "standoff", mount->standoff,
+                     "cost", mount->cost, "from", vector_json(mount->from), "to", vector_json(mount->to), "types",
+                     types, "most", (json_int_t)most);
 }
 
 static json_t *parts_json(const sp_setup *setup)
@@ -253,15 +257,17 @@ static json_t *editing_json(const sp_page *page, type_rows *rows)
 {
     const sp_evaluator *evaluator = sp_page_live_evaluator(page);
     const sp_place_options *options = &page->result->editing->options;
+    bool limits = !sp_result_has_alternatives(page->result);
     json_t *mounts = json_array(), *designs = designs_json(page, rows);
     for (size_t i = 0; i < options->mount_count; i++)
-        json_array_append_new(mounts, mount_json(&options->mounts[i], rows));
+        json_array_append_new(mounts, mount_json(&options->mounts[i], rows, limits));
     json_t *lacks = json_array();
     for (sp_lack lack = 0; lack < SP_LACKS; lack++)
         json_array_append_new(lacks, json_string(sp_lack_text(lack) ? sp_lack_text(lack) : ""));
-    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s}", "settings", settings_json(evaluator), "parts",
-                            parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts, "lacks",
-                            lacks, "scene", page->result->editing->scene);
+    json_t *all =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:I}", "settings", settings_json(evaluator), "parts",
+                  parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts, "lacks", lacks,
+                  "scene", page->result->editing->scene, "most", (json_int_t)(limits ? options->max_nozzles : 0));
     if (all) /* after all rows are known */
         json_object_set_new(all, "types", types_json(rows));
     if (all)

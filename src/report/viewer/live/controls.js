@@ -24,7 +24,7 @@ function makeEditor(live) {
             build();
             run(true);
         });
-        const allowed = types.map((_, i) => i).filter((i) => i < named && (i === nozzle.type || !mount.types.length ||
+        const allowed = types.map((_, i) => i).filter((i) => i < named && (i === nozzle.type ||
             mount.types.includes(i)));
         list("Type", allowed.map((i) => types[i].name), allowed.indexOf(nozzle.type), (i) => change(null, (own) => {
             own.type = allowed[i];

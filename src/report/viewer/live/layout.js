@@ -7,8 +7,12 @@ function makeLayout(live) {
     /* A place as it is when it was written and read again. */
     const told = (place) => place.map((x, k) => x + origin[k] - origin[k]);
     const downwards = scaled(view.up, -1), near = 1e-5 * view.size;
-    const free = {kind: "free", tilt: Math.PI, axis: downwards, types: []};
+    const free = {kind: "free", tilt: Math.PI, axis: downwards, types: types.map((_, i) => i), most: 0};
     const mountOf = (nozzle) => mounts[nozzle.mount] || free;
+    /* The same, or the port in which a nozzle stands that was put elsewhere, as sp_mount_at has it. */
+    const mountHolding = (nozzle) => (mountOf(nozzle).kind !== "port" &&
+        mounts.find((mount) => mount.kind === "port" && lies(mount, nozzle.place, 4e-4 * view.size))) ||
+        mountOf(nozzle);
     const typeOf = (nozzle) => types[nozzle.type].numbers;
     const named = types.filter((type) => type.name).length;
     const partsOf = (mount) => (mount.part >= 0 ? [mount.part]
@@ -100,6 +104,6 @@ function makeLayout(live) {
             return add(nozzle.place, add(add(scaled(axis, way[0]), x, way[1]), y, way[2]), length);
         });
     }
-    return {mountOf, typeOf, named, nozzleOf, numbersOf, findMount, settle, flowAt, flowOf, adjustable, fitType,
-            mountName, mountAt, rimOf};
+    return {mountOf, mountHolding, typeOf, named, nozzleOf, numbersOf, findMount, settle, flowAt, flowOf, adjustable,
+            fitType, mountName, mountAt, rimOf};
 }

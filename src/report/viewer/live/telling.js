@@ -1,7 +1,8 @@
 /* What a layout comes to, in words and as a table. */
 function makeTelling(live) {
     "use strict";
-    const {editing, figures, answer, mountOf, LITRES} = live, {mounts} = editing, {element} = widgets;
+    const {editing, figures, answer, mountHolding, mountName, LITRES} = live, {types, mounts} = editing;
+    const {element} = widgets;
 
     const short = (value, digits = 4) => String(Number(value.toPrecision(digits)));
     const percent = (share) => `${(100 * share).toFixed(2)} %`;
@@ -36,6 +37,24 @@ function makeTelling(live) {
             element("tbody", {}, ...rows)));
     }
 
+    /* What the scene does not allow: types that do not fit where they are, and more nozzles than are to be. On a mount
+     * other than a port kept ones do not count. */
+    function broken() {
+        const on = live.nozzles.filter((nozzle) => nozzle.on);
+        const words = on.filter((nozzle) => !mountHolding(nozzle).types.includes(nozzle.type)).map((nozzle) =>
+            `${nozzle.name}, of type ${types[nozzle.type].name}, does not fit port ${mountHolding(nozzle).name}.`);
+        for (const mount of mounts.filter(({most}) => most)) {
+            const port = mount.kind === "port", name = mount.name ? `${mount.kind} ${mount.name}` : mountName(mount);
+            const held = on.filter((nozzle) => mountHolding(nozzle) === mount && (port || !nozzle.keep)).length;
+            if (held > mount.most)
+                words.push(`${name[0].toUpperCase()}${name.slice(1)} holds ${held} nozzles${port ? "" :
+                    " besides kept ones"}, and takes ${mount.most}.`);
+        }
+        if (editing.most && on.length > editing.most)
+            words.push(`These are ${on.length} nozzles, and max_nozzles allows ${editing.most}.`);
+        return words;
+    }
+
     function tell(stride, finished) {
         const texel = 1e3 * editing.settings[8];
         const how = stride > 1
@@ -52,12 +71,7 @@ function makeTelling(live) {
             finished.stands.forEach((wrong, i) => wrong && live.nozzles[i].on &&
                 words.push(`This layout cannot be built: ${wrong.replace("nozzles: ", live.nozzles[i].name)}.`));
         }
-        const ports = live.nozzles.filter((nozzle) => nozzle.on && mountOf(nozzle).kind === "port")
-            .map((nozzle) => nozzle.mount);
-        const twice = ports.find((port, i) => ports.indexOf(port) < i);
-        if (twice !== undefined)
-            words.push(`Port ${mounts[twice].name} holds two nozzles.`);
-        answer.replaceChildren(...words.map((line) => element("p", {}, line)));
+        answer.replaceChildren(...words.concat(broken()).map((line) => element("p", {}, line)));
     }
     return {percent, litres, priceOf, tellFigures, tell};
 }
