@@ -3,10 +3,12 @@
 
 #include <math.h>
 
-static const char scene_yaml[] = ROOM_WITH_A_NOZZLE
-    "  pressure: 2 bar\n"
+static const char scene_yaml[] =
+    "datum: {zero: [0, 1, 0]}\n" ROOM_WITH_A_NOZZLE "  pressure: 2 bar\n"
     "  mounts:\n"
     "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P2, position: [0 m, 0.5 m, 0.7 m], axis: [1, 0, 0.2], tilt: 30 deg, depth: {from: 100 mm, to: "
     "500 mm, spacing: 200 mm}}\n"
     "    - line: {name: rail, from: [0.2 m, 0.5 m, 0.7 m], to: [0.8 m, 0.5 m, 0.7 m], spacing: 100 mm, tilt: 45 deg}\n"
     "    - box: {name: frame, min: [0.3 m, 0.3 m, 0.6 m], max: [0.7 m, 0.7 m, 0.6 m], spacing: 100 mm, tilt: 45 deg}\n"
@@ -75,6 +77,28 @@ static json_t *drag(const char *handle, double x, double y)
     return look();
 }
 
+/* Of the only nozzle of changed/nozzles.csv. */
+static double in_the_table(const char *column)
+{
+    char *rows = read_file("changed/nozzles.csv", NULL), *field = strchr(rows, '\n') + 1;
+    for (const char *head = rows; strncmp(head, column, strlen(column)) != 0; head = strchr(head, ',') + 1)
+        field = strchr(field, ',') + 1;
+    double value = strtod(field, NULL);
+    free(rows);
+    return value;
+}
+
+/* Sliders that count as the sheet does, or a line beside those that do not, say where the nozzle points. */
+static void expect_pose_of_the_sheet(const json_t *seen)
+{
+    const char *line = json_string_value(json_object_get(seen, "pose"));
+    double tilt, towards;
+    if (sscanf(line, "On the sheet: tilt %lf°, towards %lf°.", &tilt, &towards) != 2)
+        fail_msg("found %s", line);
+    assert_float_equal(tilt, in_the_table("tilt_deg"), 0.0501);
+    assert_float_equal(towards, in_the_table("towards_deg"), 0.0501);
+}
+
 /* What the page says of the layout is what the program says of the scene that it saves. */
 static void expect_program_agrees(const json_t *seen)
 {
@@ -93,6 +117,7 @@ static void expect_program_agrees(const json_t *seen)
     const char *row = json_string_value(json_object_get(seen, "row"));
     if (!strstr(row, percent))
         fail_msg("found %s, expected %s", row, percent);
+    expect_pose_of_the_sheet(seen);
 }
 
 static void along_the_axis_of_a_port(void **state)
@@ -130,6 +155,19 @@ static void the_axis_within_its_tilt(void **state)
     json_decref(after);
     after = drag("axis", -150, -40);
     assert_float_equal(slider(after, "Tilt, deg"), 30, 1e-6);
+    json_decref(after);
+}
+
+/* The sliders of a mount that does not point straight down say what they count from. */
+static void the_axis_of_a_slanted_port(void **state)
+{
+    (void)state;
+    skip_unless_evaluating(opened);
+    put_on("P2");
+    json_t *after = drag("axis", 30, 20);
+    assert_true(slider(after, "Tilt from the mount's axis, deg") > 2);
+    assert_true(slider(after, "Round the mount's axis, deg") >= 0);
+    expect_program_agrees(after);
     json_decref(after);
 }
 
@@ -176,6 +214,10 @@ static void on_a_surface_and_anywhere(void **state)
                 0.02);
     expect_program_agrees(after);
     json_decref(before);
+    before = drag("axis", 20, 10);
+    assert_true(slider(before, "Tilt from the wall's normal, deg") > 2);
+    expect_program_agrees(before);
+    json_decref(before);
     put_on("anywhere");
     before = drag("place", 0, -60);
     assert_true(slider(before, "z, m") > slider(after, "z, m") + 0.02);
@@ -191,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(along_the_axis_of_a_port),
         cmocka_unit_test(the_axis_within_its_tilt),
+        cmocka_unit_test(the_axis_of_a_slanted_port),
         cmocka_unit_test(along_a_line),
         cmocka_unit_test(in_a_flat_box),
         cmocka_unit_test(on_a_surface_and_anywhere),

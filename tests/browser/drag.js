@@ -42,7 +42,10 @@ const dragged = (() => {
         }
         const sliders = Object.fromEntries([...live().querySelectorAll(".sliders label")].map((label) =>
             [label.textContent, Number(label.querySelector("input").value)]));
-        return {...found, sliders, coverage: Number(live().dataset.coverage),
+        const line = live().querySelector(".sliders .pose"), exact = (name) => live()
+            .querySelector(`[aria-label="${name}, deg, as a number"]`).value;
+        const pose = line ? line.textContent : `On the sheet: tilt ${exact("Tilt")}°, towards ${exact("Towards")}°.`;
+        return {...found, sliders, pose, coverage: Number(live().dataset.coverage),
             row: live().querySelector("tbody tr").textContent, scene: live().querySelector("textarea").value,
             requests: performance.getEntriesByType("resource").map((entry) => entry.name)
                 .filter((name) => !name.startsWith("blob:"))};

@@ -7,7 +7,7 @@
         await wait(50);
     const times = {move: [], turn: []};
     const slider = (name) => [...live().querySelectorAll(".sliders label")]
-        .filter((label) => label.textContent === name).map((label) => label.querySelector("input"))[0];
+        .filter((label) => label.textContent.startsWith(name)).map((label) => label.querySelector("input"))[0];
     const list = (name) => [...live().querySelectorAll("label")].find((label) => label.textContent.startsWith(name))
         .querySelector("select");
     async function set(name, share, kind) {
@@ -30,7 +30,7 @@
             nozzles.dispatchEvent(new Event("change"));
             for (const name of ["x, m", "z, m", "Depth, mm"])
                 await set(name, 0.3 + 0.05 * round, "move");
-            for (const name of ["Tilt, deg", "Towards, deg", "Roll, deg", "Angle, deg", "Flow, L/min"])
+            for (const name of ["Tilt", "Towards", "Round", "Roll, deg", "Angle, deg", "Flow, L/min"])
                 await set(name, 0.2 + 0.09 * round, "turn");
         }
     const say = (kind) => {

@@ -16,19 +16,20 @@ const geometry = (() => {
         return power * [5, 2, 1].find((step) => step * power <= most || step === 1);
     }
 
-    /* Two directions across one, of which a tilt's azimuth is counted from the first to the second. */
-    function across(axis) {
-        const other = Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
+    /* Two directions across one, of which a tilt's azimuth is counted from the first to the second: across one that
+     * leads against the datum's axis those of the datum's azimuths 0 and 90. */
+    function across(axis, datum) {
+        const other = Math.abs(dot(axis, datum.zero)) < 0.9 ? datum.zero : datum.axis;
         const first = unit(add(other, axis, -dot(other, axis)));
-        return [first, cross(axis, first)];
+        return [first, cross(first, axis)];
     }
-    function leaning(reference, tilt, azimuth) {
-        const [first, second] = across(reference);
+    function leaning(reference, tilt, azimuth, datum) {
+        const [first, second] = across(reference, datum);
         return unit(add(add(scaled(reference, Math.cos(tilt)), first, Math.sin(tilt) * Math.cos(azimuth)), second,
                         Math.sin(tilt) * Math.sin(azimuth)));
     }
-    function tiltOf(reference, axis) {
-        const [first, second] = across(reference), x = dot(axis, first), y = dot(axis, second);
+    function tiltOf(reference, axis, datum) {
+        const [first, second] = across(reference, datum), x = dot(axis, first), y = dot(axis, second);
         return {tilt: Math.atan2(Math.hypot(x, y), dot(axis, reference)), azimuth: x || y ? Math.atan2(y, x) : 0};
     }
 

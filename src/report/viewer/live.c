@@ -253,6 +253,11 @@ static void add_price(const sp_page *page, json_t *all)
     }
 }
 
+static json_t *datum_json(const sp_datum *datum)
+{
+    return json_pack("{s:o, s:o}", "axis", vector_json(datum->axis), "zero", vector_json(datum->zero));
+}
+
 static json_t *editing_json(const sp_page *page, type_rows *rows)
 {
     const sp_evaluator *evaluator = sp_page_live_evaluator(page);
@@ -268,6 +273,8 @@ static json_t *editing_json(const sp_page *page, type_rows *rows)
         json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:I}", "settings", settings_json(evaluator), "parts",
                   parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts, "lacks", lacks,
                   "scene", page->result->editing->scene, "most", (json_int_t)(limits ? options->max_nozzles : 0));
+    if (all)
+        json_object_set_new(all, "datum", datum_json(&sp_evaluator_setup(evaluator)->datum));
     if (all) /* after all rows are known */
         json_object_set_new(all, "types", types_json(rows));
     if (all)

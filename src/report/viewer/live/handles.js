@@ -2,7 +2,8 @@
  * which leans within its tilt. By keyboard the sliders do the same. */
 function makeHandles(live) {
     "use strict";
-    const {view, design, mountOf, change} = live, {add, dot, scaled, unit, limited, tiltOf} = geometry;
+    const {view, design, editing, mountOf, change} = live, {datum} = editing;
+    const {add, dot, scaled, unit, limited, tiltOf} = geometry;
     const LONG = 0.15 * view.size; /* of the axis that is shown, m */
 
     function shape(tag, attributes) {
@@ -81,7 +82,7 @@ function makeHandles(live) {
 
     const acts = {
         place: (nozzle, ray) => (nozzle.place = drawn(nozzle, ray)),
-        axis: (nozzle, ray) => Object.assign(nozzle, tiltOf(nozzle.reference, turned(nozzle, ray))),
+        axis: (nozzle, ray) => Object.assign(nozzle, tiltOf(nozzle.reference, turned(nozzle, ray), datum)),
     };
 
     /* One change at a time; of several that are wished the latest. */

@@ -1,12 +1,12 @@
 /* Nozzles within their mounts. Lengths in m, angles in rad. */
 function makeLayout(live) {
     "use strict";
-    const {view, editing, origin} = live, {types, mounts} = editing, density = editing.settings[0];
+    const {view, editing, origin} = live, {types, mounts, datum} = editing, density = editing.settings[0];
     const {add, scaled, cross, unit, limited, tiltOf, leaning, lies} = geometry;
 
     /* A place as it is when it was written and read again. */
     const told = (place) => place.map((x, k) => x + origin[k] - origin[k]);
-    const downwards = scaled(view.up, -1), near = 1e-5 * view.size;
+    const downwards = scaled(datum.axis, -1), near = 1e-5 * view.size;
     const free = {kind: "free", tilt: Math.PI, axis: downwards, types: types.map((_, i) => i), most: 0};
     const mountOf = (nozzle) => mounts[nozzle.mount] || free;
     /* The same, or the port in which a nozzle stands that was put elsewhere, as sp_mount_at has it. */
@@ -29,20 +29,20 @@ function makeLayout(live) {
     /* The mount that a nozzle is on, none where it is on none; and what its tilt is counted from. */
     async function findMount(nozzle) {
         nozzle.mount = mounts.findIndex((mount) => lies(mount, nozzle.place, near) &&
-            tiltOf(mount.axis, nozzle.axis).tilt <= mount.tilt + 1e-6);
+            tiltOf(mount.axis, nozzle.axis, datum).tilt <= mount.tilt + 1e-6);
         for (let i = 0; i < mounts.length && nozzle.mount < 0; i++) {
             if (mounts[i].kind !== "surface")
                 continue;
             const {far, normal} = await live.ask("foot", {parts: partsOf(mounts[i]), point: nozzle.place});
             if (!normal || Math.abs(far - mounts[i].standoff) > 10 * near ||
-                tiltOf(normal, nozzle.axis).tilt > mounts[i].tilt + 1e-3)
+                tiltOf(normal, nozzle.axis, datum).tilt > mounts[i].tilt + 1e-3)
                 continue;
             nozzle.mount = i;
             nozzle.reference = normal;
         }
         if (mountOf(nozzle).kind !== "surface")
             nozzle.reference = mountOf(nozzle).axis;
-        Object.assign(nozzle, tiltOf(nozzle.reference, nozzle.axis));
+        Object.assign(nozzle, tiltOf(nozzle.reference, nozzle.axis, datum));
     }
 
     /* Onto its mount, from wherever its place is. */
@@ -57,7 +57,7 @@ function makeLayout(live) {
         }
         nozzle.place = told(nozzle.place);
         nozzle.tilt = Math.min(nozzle.tilt, mount.tilt);
-        nozzle.axis = leaning(nozzle.reference, nozzle.tilt, nozzle.azimuth);
+        nozzle.axis = leaning(nozzle.reference, nozzle.tilt, nozzle.azimuth, datum);
     }
 
     /* As sp_type_flow. */

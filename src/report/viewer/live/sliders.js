@@ -1,8 +1,8 @@
 /* A slider and a number for each of what can be set of the nozzle in hand. */
 function makeSliders(live) {
     "use strict";
-    const {view, origin, sliders, typeOf, flowAt, flowOf, adjustable, fitType, change, LITRES} = live;
-    const {add, dot, limited} = geometry, {element} = widgets;
+    const {view, editing, origin, sliders, typeOf, flowAt, flowOf, adjustable, fitType, change, LITRES} = live;
+    const {add, dot, scaled, tiltOf, limited} = geometry, {datum} = editing, {element} = widgets;
     const [DEGREE, BAR] = [Math.PI / 180, 1e5];
 
     /* Without what units round off: 30 deg that read 29.999999999999996 would leave out the last step. */
@@ -53,15 +53,37 @@ function makeSliders(live) {
             placeSliders(nozzle, mount);
         }
     }
+    /* In deg, from 0 on. */
+    const turnOf = (angle) => (angle < 0 ? angle + 2 * Math.PI : angle) / DEGREE;
+    /* Which way the nozzle points as the sheet has it (sp_fitting_row). */
+    function tellPose() {
+        const line = element("p", {class: "pose"}), sync = () => {
+            const {tilt, azimuth} = tiltOf(scaled(datum.axis, -1), live.nozzles[live.chosen].axis, datum);
+            const told = (tilt / DEGREE).toFixed(1), towards = turnOf(azimuth).toFixed(1);
+            line.textContent = `On the sheet: tilt ${told}°, towards ${towards === "360.0" || told === "0.0" ||
+                told === "180.0" ? "0.0" : towards}°.`;
+        };
+        live.syncs.push(sync);
+        sync();
+        sliders.append(line);
+    }
+    /* Of a mount that points straight down, against the datum's axis, sliders count as the sheet does. Of any other
+     * they count from the mount, and a line beside them says what the sheet has. */
     function poseSliders(nozzle, mount) {
+        const wall = mount.kind === "surface", plumb = !wall && dot(mount.axis, datum.axis) < 1e-9 - 1;
+        const from = wall ? "the wall's normal" : "the mount's axis";
+        const [tilt, towards] = plumb ? ["Tilt, deg", "Towards, deg"]
+            : [`Tilt from ${from}, deg`, `Round ${from}, deg`];
         if (mount.tilt > 0) {
-            slider("Tilt, deg", 0, mount.tilt / DEGREE, 0.5, (own) => own.tilt / DEGREE,
+            slider(tilt, 0, mount.tilt / DEGREE, 0.5, (own) => own.tilt / DEGREE,
                    (own, value) => (own.tilt = value * DEGREE));
-            slider("Towards, deg", -180, 180, 1, (own) => own.azimuth / DEGREE,
+            slider(towards, 0, 360, 1, (own) => turnOf(own.azimuth),
                    (own, value) => (own.azimuth = value * DEGREE));
         }
         slider("Roll, deg", -180, 180, 1, (own) => Math.atan2(Math.sin(own.roll), Math.cos(own.roll)) / DEGREE,
                (own, value) => (own.roll = value * DEGREE));
+        if (!plumb)
+            tellPose();
     }
     function typeSliders(nozzle) {
         const n = typeOf(nozzle), rated = (row) => flowAt(n, row, nozzle.pressure);
