@@ -17,8 +17,9 @@ const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_CHECK] = {"check", "SCENE", "what is in a scene, what is wrong with it, diagnosis of its mesh",
                    "Reads the scene, its catalogue and its geometry, and tells what is in them and what is doubtful: "
                    "open, non-manifold and flipped edges, cracks, bits that are loose, openings through which the "
-                   "liquid gets out of the cavity, hollows that cannot drain, units that make no sense. Of what is "
-                   "wrong in a file it names file, line and column.\n\n"
+                   "liquid gets out of the cavity, hollows that cannot drain, units that make no sense, nozzles of the "
+                   "scene's own that go against the port that they stand in. Of what is wrong in a file it names file, "
+                   "line and column.\n\n"
                    "With -o a picture of the wet surface, wet.png, is written.",
                    "sprayplan check vessel.yaml -o out/check", 1, 1},
     [CLI_SIMULATE] = {"simulate", "SCENE", "evaluate the scene's own nozzles",

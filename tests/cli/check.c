@@ -71,6 +71,53 @@ static void check_tells_of_mounts_that_take_no_nozzle(void **state)
     json_decref(object);
 }
 
+static const char ported_yaml[] =
+    "geometry:\n"
+    "  - file: room.obj\n"
+    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+    "catalogue: catalogue.yaml\n"
+    "nozzles:\n"
+    "  - {name: fits, type: cone, position: [0.3 m, 0.3 m, 0.8 m], axis: [0, 0.36, -1], pressure: 2 bar}\n"
+    "  - {name: leans, type: cone, position: [0.7 m, 0.3 m, 0.8 m], axis: [0, 0.5, -1], pressure: 2 bar, keep: true}\n"
+    "  - {name: other, type: ball, position: [0.7 m, 0.7 m, 0.8 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "  - {name: second, type: cone, position: [0.3 m, 0.3 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "  - {name: deep, type: cone, position: [0.3 m, 0.7 m, 0.4 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "  - {name: off, type: cone, position: [0.3 m, 0.75 m, 0.4 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "place:\n"
+    "  pressure: 2 bar\n"
+    "  mounts:\n"
+    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 20 deg, depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P2, position: [0.7 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 20 deg, depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P3, position: [0.7 m, 0.7 m, 1 m], axis: [0, 0, -1], types: [cone], depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P4, position: [0.3 m, 0.7 m, 1 m], axis: [0, 0, -1], depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P5, position: [0.3 m, 0.7 m, 1 m], axis: [0, 0, -1], depth: {from: 100 mm, to: "
+    "300 mm, spacing: 200 mm}}\n";
+
+/* Types, tilt, depths and number; and a port that is there twice. */
+static void check_tells_of_nozzles_against_their_ports(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "nozzle \"leans\": in port P2, tilted by 26.6 deg from its axis, expected no more than 20.0 deg",
+        "nozzle \"other\": in port P3, of type 'ball', expected one of the port's types: cone",
+        "nozzle \"second\": in port P1, as \"fits\" is, expected one nozzle in a port",
+        "nozzle \"deep\": on the axis of port P4, 600 mm deep, expected 100 mm to 500 mm; it is not taken to be in the "
+        "port",
+        "mounts: port P5 has the mouth and the axis of port P4, so that a layout may have a nozzle in each",
+    };
+    const size_t count = sizeof expected / sizeof *expected;
+    write_file("ported.yaml", ported_yaml);
+    json_t *object = expect_json("check ported.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), count);
+    for (size_t i = 0; i < count; i++)
+        assert_string_equal(json_string_value(json_array_get(warnings, i)), expected[i]);
+    json_decref(object);
+}
+
 /* The second of three is the first again, the third is turned. */
 static void check_tells_of_nozzles_that_are_there_twice(void **state)
 {
@@ -146,6 +193,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangled_polygons_are_warned_of),
         cmocka_unit_test(check_measures_the_room),
+        cmocka_unit_test(check_tells_of_nozzles_against_their_ports),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),

@@ -168,6 +168,9 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     warn_of_openings(found);
     warn_of_caps(found);
     warn_of_hollows(found);
-    return warn_of_nozzles(found, error) && (!sp_scene_has_place(found->opened->scene) ||
-                                             cli_tell_idle_mounts(found->opened, warn_of_mount, found, error));
+    if (!warn_of_nozzles(found, error))
+        return false;
+    cli_tell_port_breaches(found->opened, warn_of_mount, found);
+    return !sp_scene_has_place(found->opened->scene) ||
+           cli_tell_idle_mounts(found->opened, warn_of_mount, found, error);
 }
