@@ -182,7 +182,7 @@ static void add_row(const sp_page *page, sp_text *text, const char *title, add_c
     for (size_t i = 0; i < page->result->design_count; ++i) {
         if (!is_alternative(page, i))
             continue;
-        sp_text_add(text, "<td%s style=\"font-weight:%d\">", sp_page_column(page, i), i == page->main ? 600 : 400);
+        sp_text_add(text, "<td%s>", sp_page_column(page, i));
         cell(page, text, i);
         sp_text_add(text, "</td>");
     }

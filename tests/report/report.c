@@ -201,6 +201,33 @@ static void a_number_keeps_its_per_cent_sign(void **state)
     free(html);
 }
 
+/* Wherever it stands among others: of alternatives, what is proposed need not be the last. */
+static void the_proposals_column_is_bold(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    bool fittings[4] = {false};
+    sp_proposal proposals[] = {f->proposal, f->proposal};
+    sp_design designs[] = {f->designs[0], f->designs[2], f->designs[1]};
+    sp_result result = f->result;
+    for (int i = 0; i < 2; i++) {
+        proposals[i].fittings = fittings;
+        designs[1 + i].alternative = &proposals[i];
+        designs[1 + i].name = i ? "of two" : "of one";
+    }
+    result.proposal = &proposals[0];
+    result.designs = designs;
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "td.decided{font-weight:600}"));
+    assert_null(strstr(html, "td:last-child"));
+    const char *row = strstr(html, "Lands on surface to be cleaned</th><td>");
+    assert_non_null(row);
+    const char *second = strstr(row, "</td><td class=\"decided\">");
+    assert_true(second && second < strstr(row, "</td><td>"));
+    free(html);
+}
+
 /* By name, with the pictures, for which there was no time either. */
 static void what_was_left_out_is_named(void **state)
 {
@@ -269,6 +296,7 @@ int main(void)
         cmocka_unit_test(notes_on_shadows_fit_their_columns),
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(a_number_keeps_its_per_cent_sign),
+        cmocka_unit_test(the_proposals_column_is_bold),
         cmocka_unit_test(what_was_left_out_is_named),
         cmocka_unit_test(smaller_pictures_have_the_same_labels),
     };

@@ -43,7 +43,7 @@ static const char *const style[] = {
     "thead th{border-bottom:2px solid var(--ink);font-size:14px;vertical-align:bottom}\n"
     "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500}\n"
     ".sub th:first-child{text-align:right}\nth,td{overflow-wrap:break-word;hyphens:manual}.lack{white-space:nowrap}\n"
-    "td:last-child{font-weight:600}\n.small{font-size:13.5px}\n.small td:last-child{font-weight:400}\n"
+    "td.decided{font-weight:600}\n.small{font-size:13.5px}\n"
     /* "Nozzle-12" does not break at its hyphen */
     ".small th[scope=row]{min-width:10ch}\n.small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
     ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
