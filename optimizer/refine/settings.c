@@ -3,7 +3,8 @@
 #include "refine/pose_parameters.h"
 #include "scoring/field.h"
 
-#define ROUNDS 3 /* of looking at the settings beside those of the best layout */
+#define ROUNDS 3        /* of looking at the settings beside those of the best layout */
+#define SET_WITHIN 1e-6 /* of a step, for what is at a setting: places are rounded where they are told */
 
 typedef enum { SETTING_DEPTH, SETTING_TILT, SETTING_ANGLE, SETTING_FLOW, SETTINGS } sp_setting;
 
@@ -172,6 +173,39 @@ static bool set_partial(const sp_search *search, const sp_partial *from, int way
     return done;
 }
 
+/* True where turn_all would leave the nozzle as it is. */
+static bool is_set(const sp_search *search, const sp_placed *placed)
+{
+    for (sp_setting setting = 0; setting < SETTINGS && sp_type_is_uniform(placed->nozzle.type); setting++) {
+        sp_dial dial = dial_of(search, placed, setting);
+        double size = sp_step_size(dial.step);
+        double away = dial.value - sp_step_nearest(dial.step, dial.from, dial.value, dial.low, dial.high);
+        if (size > 0 && dial.high > dial.low && fabs(away) > SET_WITHIN * size)
+            return false;
+    }
+    return true;
+}
+
+static bool all_set(const sp_search *search, const sp_partial *partial)
+{
+    for (size_t i = 0; i < partial->count; i++)
+        if (!is_set(search, &partial->items[i]))
+            return false;
+    return true;
+}
+
+/* What needs no turning is known, however short the time is. */
+static bool keep_set(const sp_search *search, const sp_front_list *list, sp_front *front, sp_error *error)
+{
+    bool done = true;
+    for (size_t i = 0; done && i < list->count; i++) {
+        sp_front_point point = list->entries[i].point;
+        if (all_set(search, &list->entries[i].partial))
+            done = sp_front_note(front, search, &list->entries[i].partial, &point, error);
+    }
+    return done;
+}
+
 static bool has_flow_steps(const sp_partial *partial)
 {
     for (size_t i = 0; i < partial->count; i++)
@@ -237,11 +271,13 @@ bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *fron
     sp_front before = *front;
     *front = sp_front_anew(&before);
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
-    bool done = set_partials(search, &before.best, front, error);
+    bool done = keep_set(search, lists[0], front, error) && keep_set(search, lists[1], front, error) &&
+                set_partials(search, &before.best, front, error);
     /* what takes most water is nearest to the best, and comes first where time is short */
     for (int k = 0; k < 2; k++)
         for (size_t i = lists[k]->count; done && i-- > 0 && sp_deadline_goes_on(deadline, "refine", 1);)
-            done = set_partials(search, &lists[k]->entries[i].partial, front, error);
+            done = all_set(search, &lists[k]->entries[i].partial) ||
+                   set_partials(search, &lists[k]->entries[i].partial, front, error);
     sp_front_free(&before);
     return done && look_beside(search, deadline, front, error);
 }

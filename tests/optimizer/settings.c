@@ -138,6 +138,46 @@ static void what_is_proposed_can_be_set(void **state)
     room_close(&j.room);
 }
 
+static bool stop_refining(void *user, const char *stage, double done)
+{
+    (void)done;
+    size_t *calls = user;
+    return strcmp(stage, "refine") != 0 || ++*calls < 40;
+}
+
+/* The most that the points cover with no more nozzles, or no more water; m². */
+static double most_with(const sp_front_point *points, size_t count, size_t nozzles, double flow)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        if (points[i].nozzles <= nozzles && points[i].flow <= flow)
+            most = fmax(most, points[i].area);
+    return most;
+}
+
+/* Candidates stand at settings: what they cover stays known where no time is left to set anything. */
+static void what_stands_at_settings_is_kept_when_cut_short(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    give_steps(&j);
+    size_t calls = 0;
+    j.options.run.progress = stop_refining;
+    j.options.run.user = &calls;
+    sp_proposal *proposal = placed(&j);
+    const sp_coverage *greedy = proposal->greedy_coverage;
+    double area = greedy->covered_area * (1 - 1e-6), flow = greedy->flow * (1 + 1e-9);
+    assert_true(proposal->interrupted && proposal->greedy->count > 1);
+    assert_true(most_with(proposal->front, proposal->front_count, SIZE_MAX, flow) >= area);
+    assert_true(most_with(proposal->by_number, proposal->by_number_count, proposal->greedy->count, INFINITY) >= area);
+    assert_int_equal(proposal->by_number[0].nozzles, 1);
+    for (size_t i = 0; i < proposal->layout->count; i++)
+        check_set(&j, &proposal->layout->nozzles[i]);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 /* Flows are not turned up beyond the water that may be taken. */
 static void settings_keep_to_the_water(void **state)
 {
@@ -250,8 +290,11 @@ static void mounts_are_recognised(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(settings_are_short_numbers), cmocka_unit_test(what_is_proposed_can_be_set),
-        cmocka_unit_test(settings_keep_to_the_water), cmocka_unit_test(bodies_pass_the_bore),
+        cmocka_unit_test(settings_are_short_numbers),
+        cmocka_unit_test(what_is_proposed_can_be_set),
+        cmocka_unit_test(what_stands_at_settings_is_kept_when_cut_short),
+        cmocka_unit_test(settings_keep_to_the_water),
+        cmocka_unit_test(bodies_pass_the_bore),
         cmocka_unit_test(mounts_are_recognised),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
