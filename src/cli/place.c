@@ -115,32 +115,60 @@ static void say_what_is_covered(const sp_coverage *coverage, double percent_aske
             100 * coverage->fraction, covered, percent_asked);
 }
 
-static void say_what_is_missing(const sp_proposal *proposal)
+/* Per cent of the surface, rounded up. */
+static double at_most(double area, double whole)
 {
+    return ceil(1e4 * area / whole - 1e-7) / 100;
+}
+
+/* Where less is attainable than was asked for, by what is reported: the engineer's nozzles may reach more than those
+ * that were chosen from. */
+static bool say_what_is_attainable(const sp_result *result, sp_error *error)
+{
+    const sp_proposal *proposal = result->proposal;
+    sp_figures *all = sp_result_figures(result, error);
+    if (!all)
+        return false;
+    const sp_figures *figures = &all[sp_result_proposed(result)];
+    double whole = figures->clean_area;
+    double attainable = at_most(figures->attainable_area, whole), allowed = at_most(proposal->attainable_area, whole);
+    fprintf(stderr, "sprayplan: %.4g %% of the surface was asked for, of which ", 100 * proposal->asked_area / whole);
+    if (allowed < attainable)
+        fprintf(stderr,
+                "nozzles that are allowed reach no more than %.2f %%; with what the scene's own reach %.2f %% is "
+                "attainable",
+                allowed, attainable);
+    else
+        fprintf(stderr, "no more than %.2f %% is attainable", attainable);
+    fprintf(stderr, ": the proposal covers %.1f %%, %.1f %% of what is attainable\n", 100 * figures->coverage,
+            100 * figures->of_attainable);
+    sp_figures_destroy(all, result->design_count);
+    return true;
+}
+
+static bool say_what_is_missing(const sp_result *result, sp_error *error)
+{
+    const sp_proposal *proposal = result->proposal;
     const sp_coverage *coverage = proposal->coverage;
-    double percent = 100 / coverage->area;
     if (sp_exceeds_limits(proposal))
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");
     if (proposal->target_area > 0 && coverage->covered_area >= proposal->asked_area)
-        return;
+        return true;
     bool lacking = proposal->water_lacking > 0, nothing = !(proposal->target_area > 0);
     if (lacking)
         say_water_is_lacking(proposal);
     if (nothing && lacking)
-        return;
+        return true;
+    if (!nothing && proposal->attainable_area < proposal->asked_area && is_looked_into(proposal))
+        return say_what_is_attainable(result, error);
     if (nothing)
         fprintf(stderr,
                 "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
                 "criteria\n");
-    else if (proposal->attainable_area < proposal->asked_area && is_looked_into(proposal))
-        fprintf(stderr,
-                "sprayplan: %.4g %% of the surface was asked for, of which no more than %.2f %% is attainable: the "
-                "proposal covers %.1f %%, %.1f %% of what is attainable\n",
-                percent * proposal->asked_area, ceil(100 * percent * proposal->attainable_area - 1e-7) / 100,
-                100 * coverage->fraction, 100 * coverage->covered_area / proposal->attainable_area);
     else
-        say_what_is_covered(coverage, percent * proposal->asked_area);
+        say_what_is_covered(coverage, 100 * proposal->asked_area / coverage->area);
+    return true;
 }
 
 /* Whether this rank has reason to end. */
@@ -176,17 +204,15 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     result.design_count = designs ? list_designs(opened, found, designs) : 0;
     bool good = (designs || sp_fail_memory(error)) &&
                 cli_report(options, &result, &scene, &opened->inputs, best->layout, error);
+    bool cut = found->ended || cli_interrupted();
+    if (good && cut)
+        say_interrupted(opened, found);
+    else if (good && !best->reached)
+        good = say_what_is_missing(&result, error);
     free(designs);
     if (!good)
         return cli_fail_in(opened, error);
-    if (found->ended || cli_interrupted()) {
-        say_interrupted(opened, found);
-        return EXIT_INTERRUPTED;
-    }
-    if (best->reached)
-        return EXIT_DONE;
-    say_what_is_missing(best);
-    return EXIT_SHORT;
+    return cut ? EXIT_INTERRUPTED : best->reached ? EXIT_DONE : EXIT_SHORT;
 }
 
 /* For one of the searches that are still to come, before what follows them; 0 where there is no limit. */

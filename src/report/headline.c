@@ -65,6 +65,31 @@ static void add_cards(const sp_page *page, sp_text *text)
     sp_text_add(text, "</div>\n");
 }
 
+/* Per cent of the surface, rounded up. */
+static double at_most(double area, double whole)
+{
+    return ceil(1e4 * area / whole - 1e-7) / 100;
+}
+
+/* Less than was asked for, and what that left to aim at: the engineer's nozzles may reach more than those that were
+ * chosen from. */
+static void add_attainable(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
+{
+    double whole = proposed->clean_area;
+    double attainable = at_most(proposed->attainable_area, whole), allowed = at_most(proposal->attainable_area, whole);
+    bool own = allowed < attainable;
+    sp_text_add(text, own ? "nozzles that are allowed reach no more than " : "no more than ");
+    sp_markup_decimals(text, own ? allowed : attainable, 2);
+    sp_text_add(text, own ? "&nbsp;%%, so that " : "&nbsp;%% are attainable, so that ");
+    sp_markup_decimals(text, 100 * proposal->target_area / whole, 1);
+    sp_text_add(text, "&nbsp;%% were aimed at; ");
+    if (own) {
+        sp_text_add(text, "with what the engineer&#39;s own reach ");
+        sp_markup_decimals(text, attainable, 2);
+        sp_text_add(text, "&nbsp;%% are attainable; ");
+    }
+}
+
 /* The coverage asked for, and why the proposal falls short of it. */
 static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
 {
@@ -74,13 +99,8 @@ static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposa
     sp_text_add(text, "&nbsp;%% of the surface to be cleaned (");
     sp_markup_significant(text, proposal->asked_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for within the limits on nozzles, water and ports; ");
-    if (proposed->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0)) {
-        sp_text_add(text, "no more than ");
-        sp_markup_decimals(text, ceil(100 * percent * proposed->attainable_area - 1e-7) / 100, 2);
-        sp_text_add(text, "&nbsp;%% are attainable, so that ");
-        sp_markup_decimals(text, percent * proposal->target_area, 1);
-        sp_text_add(text, "&nbsp;%% were aimed at; ");
-    }
+    if (proposal->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0))
+        add_attainable(proposed, proposal, text);
     sp_text_add(text, "the proposal covers ");
     sp_markup_decimals(text, percent * proposed->covered_area, 1);
     sp_text_add(text, "&nbsp;%% (");

@@ -1,6 +1,8 @@
 /* place says where it does not beat the engineer's own nozzles, and what its search does not count. */
 #include "results.h"
 
+#include <math.h>
+
 #define BETTER "By the objective the scene's own nozzles are better than the proposal: they "
 
 /* room.yaml, its own nozzle of that type, as `name`. */
@@ -98,12 +100,47 @@ static void what_the_search_does_not_count_is_told(void **state)
     }
 }
 
+/* A ball in the middle, which reaches the ceiling, as no cone at the mounts does: one share is attainable wherever it
+ * is told, and what was aimed at is of what cones reach. */
+static void what_own_nozzles_alone_reach_is_attainable_everywhere(void **state)
+{
+    (void)state;
+    write_room("ball.yaml", "ball");
+    outcome done = run_program("place ball.yaml --set 'place.types=[cone]' "
+                               "--set place.refine=none --set place.max_nozzles=1 --no-live -o beyond " COARSE);
+    assert_int_equal(done.status, 4);
+    json_t *all = json_file("beyond/result.json"), *geometry = json_object_get(all, "geometry");
+    const json_t *proposed = layout_named(all, "proposed"), *target = json_object_get(all, "target");
+    double whole = number(geometry, "clean_area_m2"), aimed = 100 * number(target, "coverage_aimed_at");
+    double attainable = 100 * number(geometry, "attainable_area_m2") / whole, told, allowed, covered, share;
+    assert_non_null(strstr(done.out, "reached by the scene's own nozzles alone"));
+    assert_int_equal(sscanf(done.err,
+                            "sprayplan: 90 %% of the surface was asked for, of which nozzles that are allowed reach "
+                            "no more than %lf %%; with what the scene's own reach %lf %% is attainable: the proposal "
+                            "covers %lf %%, %lf %% of what",
+                            &allowed, &told, &covered, &share),
+                     4);
+    assert_true(told > attainable - 1e-6 && told < attainable + 0.01);
+    assert_true(aimed < 0.9 * attainable - 1 && 0.9 * allowed > aimed - 1e-6 && 0.9 * allowed < aimed + 0.1);
+    assert_true(fabs(share - 100 * number(proposed, "coverage_of_attainable")) <= 0.05 + 1e-9);
+    char *page = read_file("beyond/report.html", NULL), text[200];
+    snprintf(text, sizeof text,
+             "nozzles that are allowed reach no more than %.2f&nbsp;%%, so that %.1f&nbsp;%% were aimed at; with what "
+             "the engineer&#39;s own reach %.2f&nbsp;%% are attainable; ",
+             allowed, aimed, told);
+    assert_non_null(strstr(page, text));
+    free(page);
+    json_decref(all);
+    forget(&done);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_beats_the_proposal_is_told),
         cmocka_unit_test(what_does_not_or_is_beyond_the_limits_is_not),
         cmocka_unit_test(the_page_tells_it_too),
+        cmocka_unit_test(what_own_nozzles_alone_reach_is_attainable_everywhere),
         cmocka_unit_test(what_the_search_does_not_count_is_told),
     };
     return cmocka_run_group_tests_name("own nozzles better", tests, open_workplace, close_workplace);

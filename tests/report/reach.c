@@ -13,8 +13,13 @@ static void what_is_out_of_reach_is_said_first(void **state)
     assert_true(first && first < strstr(html, "class=\"headline\""));
     assert_true(strstr(html, "<section id=\"attainable\">") < strstr(html, "<section id=\"figures\">"));
     const char *warning = strstr(html, "The coverage asked for is not reached");
-    snprintf(text, sizeof text, "no more than %.2f&nbsp;%% are attainable, so that %.1f&nbsp;%% were aimed at",
-             ceil(1e4 * figures[2].attainable_area / figures[2].clean_area) / 100, 5000 / figures[2].clean_area);
+    /* the fixture's proposal says that allowed nozzles reach 5 m2, of which 50 were aimed at */
+    assert_true(figures[2].attainable_area > 5);
+    snprintf(text, sizeof text,
+             "nozzles that are allowed reach no more than %.2f&nbsp;%%, so that %.1f&nbsp;%% were aimed at; with what "
+             "the engineer&#39;s own reach %.2f&nbsp;%% are attainable; ",
+             ceil(5e4 / figures[2].clean_area) / 100, 5000 / figures[2].clean_area,
+             ceil(1e4 * figures[2].attainable_area / figures[2].clean_area) / 100);
     assert_true(warning && strstr(warning, text));
     const char *table = strstr(html, "<caption>Out of reach, ");
     assert_non_null(table);
@@ -28,6 +33,26 @@ static void what_is_out_of_reach_is_said_first(void **state)
     }
     sp_figures_destroy(figures, f->result.design_count);
     free(html);
+}
+
+/* Where the engineer's nozzles reach no more than those that are allowed. */
+static void one_share_is_attainable(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_result result = f->result;
+    sp_proposal proposal = f->proposal;
+    result.designs = &f->designs[1];
+    result.design_count = 2;
+    result.proposal = &proposal;
+    sp_figures *figures = sp_result_figures(&result, &error);
+    proposal.attainable_area = figures[1].attainable_area;
+    char *html = sp_report_html(&result, &error), text[200];
+    snprintf(text, sizeof text, "no more than %.2f&nbsp;%% are attainable, so that %.1f&nbsp;%% were aimed at",
+             ceil(1e4 * figures[1].attainable_area / figures[1].clean_area) / 100, 5000 / figures[1].clean_area);
+    assert_non_null(strstr(html, text));
+    free(html);
+    sp_figures_destroy(figures, result.design_count);
 }
 
 /* What the engineer's nozzles cover counts as attainable; that no allowed nozzle reaches it is told. */
@@ -110,6 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
+        cmocka_unit_test(one_share_is_attainable),
         cmocka_unit_test(what_own_nozzles_alone_reach_is_told),
         cmocka_unit_test(limits_are_told_from_faults),
     };
