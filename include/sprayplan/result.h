@@ -244,6 +244,8 @@ SP_API int sp_area_decimals(const sp_figures *figures, int least);
 SP_API int sp_water_decimals(double l_min);
 /* What is proved that none takes less than, in L/min, rounded down to these decimals. */
 SP_API double sp_water_at_least(double l_min);
+/* What is told as a limit of a part of `whole`: per cent, rounded up to two decimals but for round-off. */
+SP_API double sp_percent_at_most(double part, double whole);
 
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
  * what any design on the same evaluator that it speaks of covers. The caller destroys. */

@@ -206,6 +206,20 @@ static bool keep_set(const sp_search *search, const sp_front_list *list, sp_fron
     return done;
 }
 
+/* What is to be counted of a front of drafts is to be set, too. */
+static void forget_unset(const sp_search *search, sp_front_list *counted)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < counted->count; i++) {
+        sp_front_entry *entry = &counted->entries[i];
+        if (all_set(search, &entry->partial))
+            counted->entries[kept++] = *entry;
+        else
+            sp_partial_free(&entry->partial);
+    }
+    counted->count = kept;
+}
+
 static bool has_flow_steps(const sp_partial *partial)
 {
     for (size_t i = 0; i < partial->count; i++)
@@ -270,6 +284,7 @@ bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *fron
         return true;
     sp_front before = *front;
     *front = sp_front_anew(&before);
+    forget_unset(search, &front->counted);
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
     bool done = keep_set(search, lists[0], front, error) && keep_set(search, lists[1], front, error) &&
                 set_partials(search, &before.best, front, error);

@@ -115,12 +115,6 @@ static void say_what_is_covered(const sp_coverage *coverage, double percent_aske
             100 * coverage->fraction, covered, percent_asked);
 }
 
-/* Per cent of the surface, rounded up. */
-static double at_most(double area, double whole)
-{
-    return ceil(1e4 * area / whole - 1e-7) / 100;
-}
-
 /* Where less is attainable than was asked for, by what is reported: the engineer's nozzles may reach more than those
  * that were chosen from. */
 static bool say_what_is_attainable(const sp_result *result, sp_error *error)
@@ -131,7 +125,8 @@ static bool say_what_is_attainable(const sp_result *result, sp_error *error)
         return false;
     const sp_figures *figures = &all[sp_result_proposed(result)];
     double whole = figures->clean_area;
-    double attainable = at_most(figures->attainable_area, whole), allowed = at_most(proposal->attainable_area, whole);
+    double attainable = sp_percent_at_most(figures->attainable_area, whole),
+           allowed = sp_percent_at_most(proposal->attainable_area, whole);
     fprintf(stderr, "sprayplan: %.4g %% of the surface was asked for, of which ", 100 * proposal->asked_area / whole);
     if (allowed < attainable)
         fprintf(stderr,

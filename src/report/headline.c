@@ -65,18 +65,13 @@ static void add_cards(const sp_page *page, sp_text *text)
     sp_text_add(text, "</div>\n");
 }
 
-/* Per cent of the surface, rounded up. */
-static double at_most(double area, double whole)
-{
-    return ceil(1e4 * area / whole - 1e-7) / 100;
-}
-
 /* Less than was asked for, and what that left to aim at: the engineer's nozzles may reach more than those that were
  * chosen from. */
 static void add_attainable(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
 {
     double whole = proposed->clean_area;
-    double attainable = at_most(proposed->attainable_area, whole), allowed = at_most(proposal->attainable_area, whole);
+    double attainable = sp_percent_at_most(proposed->attainable_area, whole),
+           allowed = sp_percent_at_most(proposal->attainable_area, whole);
     bool own = allowed < attainable;
     sp_text_add(text, own ? "nozzles that are allowed reach no more than " : "no more than ");
     sp_markup_decimals(text, own ? allowed : attainable, 2);

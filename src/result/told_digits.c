@@ -42,3 +42,8 @@ double sp_water_at_least(double l_min)
     double parts = pow(10, sp_water_decimals(0.995 * l_min));
     return floor(parts * l_min + ROUND_OFF) / parts;
 }
+
+double sp_percent_at_most(double part, double whole)
+{
+    return ceil(1e4 * part / whole - ROUND_OFF) / 100;
+}
