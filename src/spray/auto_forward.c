@@ -135,25 +135,46 @@ static double all_impacts(const sp_setup *setup, double able)
     return able > 0 ? able / (1 - most) : 0;
 }
 
-/* As many as it takes until what still flies can change little. */
+/* The share of the surface that liquid that flies on (m³/s) can still cover at most, by the coverage of now. */
+static bool find_left(const sp_setting_trial *trial, double able, double *left, sp_error *error)
+{
+    double filled = most_filled(trial->evaluator, trial->coverage, all_impacts(&trial->evaluator->setup, able));
+    *left = filled / trial->coverage->area;
+    return filled >= 0 || sp_fail_memory(error);
+}
+
+/* Evaluates with so many bounces. */
+static bool try_bounces(sp_setting_trial *trial, int bounces, double *able, double *left, sp_error *error)
+{
+    trial->evaluator->fidelity.reflections = bounces;
+    sp_coverage_destroy(trial->coverage);
+    trial->coverage = sp_evaluate_jets(trial->evaluator, trial->layout, able, error);
+    return trial->coverage && find_left(trial, *able, left, error);
+}
+
+/* As many as it takes until what still flies can change little. Where the first bounce takes so little that the most
+ * will not do, these are tried next: all between take twice as long as they alone. */
 static bool choose_reflections(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     sp_fidelity *fidelity = &evaluator->fidelity;
     uint64_t jets = fidelity->jets, few = sp_jets_for(evaluator, fidelity->texel) / FEW + 1;
-    double left = 1, least = 0.25 * fidelity->accuracy;
+    double left = 1, least = 0.25 * fidelity->accuracy, able = 0;
     fidelity->jets = jets < few ? jets : few;
     for (int bounces = 0; bounces <= BOUNCES_MOST && left > least; bounces += bounces < 4 ? 1 : 2) {
-        double able = 0;
-        fidelity->reflections = bounces;
-        sp_coverage_destroy(trial->coverage);
-        trial->coverage = sp_evaluate_jets(evaluator, trial->layout, &able, error);
-        if (!trial->coverage)
+        double before = able, in_the_end, most = 0;
+        if (!try_bounces(trial, bounces, &able, &left, error))
             return false;
-        double filled = most_filled(evaluator, trial->coverage, all_impacts(&evaluator->setup, able));
-        if (filled < 0)
-            return sp_fail_memory(error);
-        left = filled / trial->coverage->area;
+        if (bounces != 1)
+            continue;
+        in_the_end = able * pow(able / before, BOUNCES_MOST - 1);
+        if (!find_left(trial, in_the_end, &most, error) ||
+            (most > least && !try_bounces(trial, BOUNCES_MOST, &in_the_end, &most, error)))
+            return false;
+        if (most > least) {
+            left = most;
+            break;
+        }
     }
     fidelity->jets = jets;
     snprintf(evaluator->choice.reflections, SP_WHY,
