@@ -44,12 +44,10 @@ typedef struct {
     sp_search search;
     sp_pool pool;
     sp_front front;
-    sp_front_entry greedy; /* the best found on the candidates, as the front measured it */
 } sp_placement;
 
 static void placement_free(sp_placement *placement)
 {
-    sp_partial_free(&placement->greedy.partial);
     sp_front_free(&placement->front);
     sp_pool_free(&placement->pool);
     sp_search_free(&placement->search);
@@ -177,10 +175,8 @@ static double *list_costs(const sp_placement *placement, sp_error *error)
 static bool write_greedy(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     if (!write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) ||
-        !(proposal->greedy_costs = list_costs(placement, error)) ||
-        !sp_partial_copy(&placement->search, &placement->front.best, &placement->greedy.partial, error))
+        !(proposal->greedy_costs = list_costs(placement, error)))
         return false;
-    placement->greedy.point = placement->front.measured;
     return sp_draft_aim(&placement->front, &placement->search, proposal->target_area,
                         proposal->greedy_coverage->covered_area, error);
 }
@@ -248,15 +244,6 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     return done;
 }
 
-/* All of the front as it can be set. The best found on the candidates is shown beside it, and may have been bettered
- * only by what is not at settings: it has to be among them, too. */
-static bool set_front(sp_placement *placement, sp_error *error)
-{
-    sp_front_entry *greedy = &placement->greedy;
-    return sp_set_front(&placement->search, &placement->deadline, &placement->front, error) &&
-           sp_front_note(&placement->front, &placement->search, &greedy->partial, &greedy->point, error);
-}
-
 /* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set; in the end
  * as the scene measures it. */
 static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_error *error)
@@ -272,7 +259,7 @@ static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_err
         return false;
     double share = search_share(placement->options) + SETTING;
     sp_deadline_allow(deadline, fmin(1, share));
-    if (!set_front(placement, error))
+    if (!sp_set_front(search, deadline, front, error))
         return false;
     sp_deadline_allow(deadline, fmin(1, share + COUNTING));
     return sp_draft_count(front, search, proposal->target_area, error);

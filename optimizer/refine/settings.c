@@ -206,7 +206,7 @@ static bool keep_set(const sp_search *search, const sp_front_list *list, sp_fron
     return done;
 }
 
-/* What is to be counted of a front of drafts is to be set, too. */
+/* What is on the front in the end is to be set, too. */
 static void forget_unset(const sp_search *search, sp_front_list *counted)
 {
     size_t kept = 0;

@@ -21,10 +21,9 @@ uint64_t sp_draft_jets(const sp_search *search, const sp_evaluator *fine)
 
 bool sp_draft_aim(sp_front *front, const sp_search *search, double target, double area, sp_error *error)
 {
-    if (!front->draft_jets)
-        return true;
     double flattery = front->measured.area - area;
-    return sp_front_count_best(front, search, area, error) && sp_front_aim(front, search, target + flattery, error);
+    return sp_front_count_best(front, search, area, error) &&
+           (!front->draft_jets || sp_front_aim(front, search, target + flattery, error));
 }
 
 /* Layouts of a front of drafts: those by water, and those by number that are not among them. */
@@ -139,7 +138,8 @@ static bool count_all(drafts *d, sp_front *front, const sp_search *search, sp_er
     return done;
 }
 
-/* What has been counted on the way is known for nothing, however short the time is. */
+/* What has been counted on the way is known for nothing, however short the time is; what bettered it since may be gone:
+ * it could not be set, or was a draft. */
 static bool enter_counted(sp_front *front, const sp_search *search, sp_error *error)
 {
     bool done = true;
@@ -163,7 +163,7 @@ static bool count_best(const drafts *d, sp_front *front, const sp_search *search
 bool sp_draft_count(sp_front *front, const sp_search *search, double target, sp_error *error)
 {
     if (!front->draft_jets)
-        return true;
+        return enter_counted(front, search, error);
     drafts d = {.front = *front};
     if (!allocate(&d, error)) {
         drafts_free(&d);

@@ -7,11 +7,12 @@
 
 /* How many of each nozzle; 0 where drafts would save little, or goods move. */
 uint64_t sp_draft_jets(const sp_search *search, const sp_evaluator *fine);
-/* Has a front of drafts aim as much higher than at `target` (m²) as they flatter its best, which covers `area` (m²) as
- * the scene says; that is kept for the count. */
+/* Keeps the front's best, which covers `area` (m²) as the scene says, for the count, and has a front of drafts aim as
+ * much higher than at `target` (m²) as they flatter it. */
 bool sp_draft_aim(sp_front *front, const sp_search *search, double target, double area, sp_error *error);
-/* Measures a front of drafts as the scene says, for `target` (m²), from what is counted already: the best, what it
- * takes to reach the target where that falls short, and of the others as many as there is time for, evenly. */
+/* The front in the end: what was kept for the count is on it, and drafts are measured as the scene says, for `target`
+ * (m²): the best, what it takes to reach the target where that falls short, and of the others as many as there is time
+ * for, evenly. */
 bool sp_draft_count(sp_front *front, const sp_search *search, double target, sp_error *error);
 
 #endif

@@ -27,7 +27,7 @@ typedef struct {
     const sp_evaluator *fine;
     uint64_t draft_jets; /* of a nozzle, on the search's patches; 0: layouts are measured as the scene says; stays what
                           * it is from the first layout on */
-    sp_front_list counted; /* beside drafts: some of which is known what the scene says, in the order of finding */
+    sp_front_list counted; /* layouts of which is known what the scene says, for the end, in the order of finding */
     sp_flown flown;        /* where jets tell what layouts cover */
     sp_deadline *deadline;
     sp_objective objective;
@@ -62,7 +62,7 @@ static inline bool sp_front_saves(const sp_front *front)
 sp_front sp_front_anew(sp_front *front);
 /* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
-/* Keeps a copy of the best draft, with the area (m²) that it covers as the scene says, among what is counted. */
+/* Keeps a copy of the best, with the area (m²) that it covers as the scene says, among what is counted. */
 bool sp_front_count_best(sp_front *front, const sp_search *search, double area, sp_error *error);
 /* For another target from now on; the best becomes that by it. */
 bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_error *error);

@@ -61,7 +61,8 @@ static inline char *browse(const char *page, const char *arguments)
     return read_file(".out", NULL);
 }
 
-/* read.html: a report with a script of this folder behind its own, and `first` before all of them. */
+/* read.html: a report with a script of this folder, and reading.js before it, behind its own, and `first` before all
+ * of them. */
 static inline void write_page_with_reader(const char *report, const char *first, const char *script)
 {
     char *page = read_file(report, NULL), *head = page ? strstr(page, "</head>") : NULL;
@@ -75,7 +76,8 @@ static inline void write_page_with_reader(const char *report, const char *first,
     assert_non_null(file);
     fprintf(file, "%s%s</head>%s<script>\n", page, first, head + strlen("</head>"));
     fclose(file);
-    snprintf(line, sizeof line, "cat '" SOURCE_DIR "/tests/browser/%s' >>'%s'", script, path);
+    snprintf(line, sizeof line,
+             "cat '" SOURCE_DIR "/tests/browser/reading.js' '" SOURCE_DIR "/tests/browser/%s' >>'%s'", script, path);
     assert_int_equal(system(line), 0);
     snprintf(line, sizeof line, "echo '</script></body></html>' >>'%s'", path);
     assert_int_equal(system(line), 0);

@@ -1,17 +1,7 @@
 /* Put behind the report's own script by a test: puts nozzles where the scene does not allow them, and writes what the
  * page says of each into it. */
 (async () => {
-    const found = {errors: [], steps: {}};
-    addEventListener("error", (event) => found.errors.push(event.message));
-    const live = () => document.getElementById("live");
-    async function until(what) {
-        for (let i = 0; i < 2000 && !what(); i++) {
-            for (let k = 0, sum = 0; k < 5e6; k++)
-                sum += k;
-            await new Promise((done) => setTimeout(done, 1));
-        }
-    }
-    const has = (name) => () => live() && (live().dataset[name] || live().dataset.failed);
+    const found = {steps: {}}, {live, until, has, tell} = reading;
     await until(has("ready"));
     found.ready = live().dataset.ready || live().dataset.failed;
     const labelled = (name) => [...live().querySelectorAll("label")].find((label) => label.textContent.startsWith(name))
@@ -47,10 +37,5 @@
         await step("rail", () => addAt("rail"));
         await step("crowd", () => addAt("rail"));
     }
-    found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
-        .filter((name) => !name.startsWith("blob:"));
-    const told = document.createElement("pre");
-    told.id = "told";
-    told.textContent = JSON.stringify(found);
-    document.body.append(told);
+    tell(found);
 })();

@@ -1,17 +1,7 @@
 /* Put behind the report's own script by a test: changes the layout as a reader would, and writes what came of it into
- * the page. The page's clock runs ahead while the worker works: it is waited for by working. */
+ * the page. */
 (async () => {
-    const found = {errors: [], steps: {}};
-    addEventListener("error", (event) => found.errors.push(event.message));
-    const live = () => document.getElementById("live");
-    async function until(what) {
-        for (let i = 0; i < 2000 && !what(); i++) {
-            for (let k = 0, sum = 0; k < 5e6; k++)
-                sum += k;
-            await new Promise((done) => setTimeout(done, 1));
-        }
-    }
-    const has = (name) => () => live() && (live().dataset[name] || live().dataset.failed);
+    const found = {steps: {}}, {live, until, has, tell} = reading;
     await until(has("ready"));
     found.ready = live().dataset.ready || live().dataset.failed;
 
@@ -98,10 +88,5 @@
         switchOf("Jets").click();
         found.jets.push(look());
     }
-    found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
-        .filter((name) => !name.startsWith("blob:"));
-    const told = document.createElement("pre");
-    told.id = "told";
-    told.textContent = JSON.stringify(found);
-    document.body.append(told);
+    tell(found);
 })();

@@ -1,17 +1,7 @@
 /* Put behind the report's own script by a test: adds a nozzle at a mount that costs something, and writes what the page
  * tells of prices into it. */
 (async () => {
-    const found = {errors: []};
-    addEventListener("error", (event) => found.errors.push(event.message));
-    const live = () => document.getElementById("live");
-    async function until(what) {
-        for (let i = 0; i < 2000 && !what(); i++) {
-            for (let k = 0, sum = 0; k < 5e6; k++)
-                sum += k;
-            await new Promise((done) => setTimeout(done, 1));
-        }
-    }
-    const has = (name) => () => live() && (live().dataset[name] || live().dataset.failed);
+    const found = {}, {live, until, has, tell} = reading;
     await until(has("ready"));
     found.ready = live().dataset.ready || live().dataset.failed;
     const look = () => ({said: live().querySelector(".answer").textContent,
@@ -25,10 +15,5 @@
     add.click();
     await until(has("settled"));
     found.added = look();
-    found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
-        .filter((name) => !name.startsWith("blob:"));
-    const told = document.createElement("pre");
-    told.id = "told";
-    told.textContent = JSON.stringify(found);
-    document.body.append(told);
+    tell(found);
 })();
