@@ -1,16 +1,17 @@
 #include "attainable/attainable.h"
-#include "candidates/sound_options.h"
+#include "candidates/valid_options.h"
 #include "scoring/prepare.h"
 #include "certificate/certificate.h"
+#include "deadline/time_shares.h"
 #include "forward_check.h"
 #include "remedies.h"
 #include "scoring/footprints.h"
-#include "search/draft.h"
-#include "search/fill.h"
+#include "search/few_jets.h"
+#include "search/front_gaps.h"
 #include "search/find.h"
 #include "ceres/least_squares.h"
 #include "refine/refine.h"
-#include "refine/settings.h"
+#include "refine/settable.h"
 
 #include "ranks/messages.h"
 
@@ -19,18 +20,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the time limit, at most, for all that goes before the certificate; the second with --prove, the third where time
- * is so short that next to nothing would be proved. */
-#define SEARCH 0.75
-#define SEARCH_PROVING 0.6
-#define SEARCH_HURRIED 0.95
-#define SETTING 0.05  /* more, for what steps allow of all that was found */
-#define COUNTING 0.15 /* more, for counting as the scene says what drafts have found */
 /* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
 #define FIRST_HURRIED 0.93 /* of the target, for a first layout of which little more than the poses is wanted */
-#define FIRST_SHARE 0.5    /* of the time for the search, for the refining of a proposal before others are looked for */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
@@ -177,8 +170,8 @@ static bool write_greedy(sp_placement *placement, sp_proposal *proposal, sp_erro
     if (!write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) ||
         !(proposal->greedy_costs = list_costs(placement, error)))
         return false;
-    return sp_draft_aim(&placement->front, &placement->search, proposal->target_area,
-                        proposal->greedy_coverage->covered_area, error);
+    return sp_aim_by_few_jets(&placement->front, &placement->search, proposal->target_area,
+                              proposal->greedy_coverage->covered_area, error);
 }
 
 /* By what the scene says of the best draft of now. */
@@ -190,7 +183,7 @@ static bool aim_again(sp_placement *placement, const sp_proposal *proposal, sp_e
         return true;
     bool done =
         write_down(placement, &layout, &coverage, error) &&
-        sp_draft_aim(&placement->front, &placement->search, proposal->target_area, coverage->covered_area, error);
+        sp_aim_by_few_jets(&placement->front, &placement->search, proposal->target_area, coverage->covered_area, error);
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
     return done;
@@ -201,11 +194,6 @@ static bool is_sound(const sp_placement *placement, sp_error *error)
 {
     return sp_visibility_sound(&placement->visibility, error) &&
            sp_footprints_sound(placement->search.footprints, error);
-}
-
-static double search_share(const sp_place_options *options)
-{
-    return options->prove ? SEARCH_PROVING : sp_run_hurries(&options->run) ? SEARCH_HURRIED : SEARCH;
 }
 
 /* A proposal next to the first layout, before better ones and the front are looked for; the first layout stands for the
@@ -227,16 +215,16 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     const sp_run *run = &placement->options->run;
     sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
-    front->draft_jets = sp_draft_jets(search, placement->fine);
+    front->draft_jets = sp_few_jets(search, placement->fine);
     bool refines = sp_refine_asked(&placement->options->refine), brief = sp_run_hurries(run);
     bool hurried = refines && (brief || sp_deadline_presses(deadline));
     sp_partial first;
     if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
     if (hurried && !brief)
-        sp_deadline_lend(deadline, FIRST_SHARE);
+        sp_deadline_lend(deadline, SP_FIRST_SHARE);
     bool done = !hurried || refine_first(placement, &first, proposal, error);
-    sp_deadline_allow(deadline, search_share(placement->options));
+    sp_deadline_allow(deadline, sp_search_share(placement->options));
     done = done && (!hurried || aim_again(placement, proposal, error)) &&
            sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
            (hurried || write_greedy(placement, proposal, error));
@@ -257,12 +245,11 @@ static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_err
         !sp_fill_front_by_jets(search, &placement->pool, deadline, front, error) ||
         !sp_deadline_stage(deadline, "fill", error))
         return false;
-    double share = search_share(placement->options) + SETTING;
-    sp_deadline_allow(deadline, fmin(1, share));
+    sp_deadline_allow(deadline, sp_setting_share(placement->options));
     if (!sp_set_front(search, deadline, front, error))
         return false;
-    sp_deadline_allow(deadline, fmin(1, share + COUNTING));
-    return sp_draft_count(front, search, proposal->target_area, error);
+    sp_deadline_allow(deadline, sp_counting_share(placement->options));
+    return sp_count_by_all_jets(front, search, proposal->target_area, error);
 }
 
 /* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
@@ -470,14 +457,14 @@ static bool settle(const sp_evaluator *evaluator, const sp_place_options *given,
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *given, sp_error *error)
 {
     sp_place_options settled, *options = &settled;
-    if (!evaluator || !given || !sp_options_are_sound(given, error) || !settle(evaluator, given, &settled, error) ||
+    if (!evaluator || !given || !sp_options_are_valid(given, error) || !settle(evaluator, given, &settled, error) ||
         !check(evaluator, options, error))
         return NULL;
     sp_proposal *proposal = calloc(1, sizeof *proposal);
     if (!proposal)
         return sp_fail_memory(error);
     sp_placement placement = {.fine = evaluator, .options = options, .deadline = sp_deadline_start(&options->run)};
-    sp_deadline_allow(&placement.deadline, search_share(options));
+    sp_deadline_allow(&placement.deadline, sp_search_share(options));
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 find(&placement, proposal, error) && is_sound(&placement, error) &&
                 improve(&placement, proposal, error) && is_sound(&placement, error) &&

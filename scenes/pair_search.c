@@ -3,7 +3,7 @@
  * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after
  * that, and which place in the order it had. One thread. */
 #include "placement.h"
-#include "refine/anneal.h"
+#include "refine/continuation.h"
 #include "refine/compass.h"
 #include "search/partial_enumeration.h"
 #include "search/tuned.h"
@@ -97,7 +97,7 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix
     sp_tuned_settle(tuned, &partial);
     covered[0] = partial.covered;
     double water = sp_partial_water(&p->search, &partial, budget);
-    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &partial, &error) ||
+    if (!sp_continuation(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &partial, &error) ||
         !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &partial, &error))
         fail(&error);
     covered[1] = partial.covered;

@@ -3,7 +3,7 @@
  * narrow one, compass search, and both. Says for each which share of what the layout leaves dry is covered then, and
  * the processor time that it took. One thread. */
 #include "placement.h"
-#include "refine/anneal.h"
+#include "refine/continuation.h"
 #include "refine/compass.h"
 
 #include <stdio.h>
@@ -38,7 +38,8 @@ static double refine(placement *p, const sp_partial *from, const way *how, doubl
     double water = sp_partial_water(&p->search, from, from->outlay), start = processor_seconds();
     if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) ||
         !sp_partial_copy(&p->search, from, &partial, &error) ||
-        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->deadline, &partial, &error)) ||
+        (how->start < SP_WIDTHS &&
+         !sp_continuation(&sights, how->start, SP_WIDTHS, water, &p->deadline, &partial, &error)) ||
         (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &partial, &error)))
         fail(&error);
     *seconds = processor_seconds() - start;

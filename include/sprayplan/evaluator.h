@@ -255,7 +255,7 @@ typedef struct {
 /* All unoccluded arrivals from `position` of what leaves there so, within `half_angle` (rad, π for all) about the unit
  * `axis`, or so near beyond it that a spray which ends there may have a share of their patch (sp_spray_fringe).
  * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. Fails where the launch has no
- * fronts and the evaluator flies with drag, or the other way round: see sp_launch_table. */
+ * wavefronts and the evaluator flies with drag, or the other way round: see sp_launch_table. */
 SP_API sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                                     double half_angle, sp_error *error);
 /* The same, of arrivals that pass the criterion's speed and incidence alone, at the patches that `among` [patches]

@@ -51,17 +51,18 @@ SP_API sp_vec3 sp_drag_acceleration(const sp_drag *drag, sp_vec3 velocity, sp_ve
 
 /* All that leaves a point at one speed at once, whatever its direction, moment by moment: the table that flights with
  * drag are found in, told to about 1e-9 of their length. Read only once it is made. */
-typedef struct sp_fronts sp_fronts;
+typedef struct sp_wavefronts sp_wavefronts;
 /* `far`: m, no flight is asked for to an end farther off than this. NULL on error. */
-SP_API sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error);
+SP_API sp_wavefronts *sp_wavefronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far,
+                                           sp_error *error);
 /* Accepts NULL. */
-SP_API void sp_fronts_destroy(sp_fronts *fronts);
+SP_API void sp_wavefronts_destroy(sp_wavefronts *fronts);
 /* As sp_flights, with drag. */
-SP_API int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
+SP_API int sp_wavefronts_flights(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
 
 /* The flight on the same arc as one near by, of which direction and time are asked; false where it is not found so. */
-SP_API bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near,
-                                  sp_flight *flight);
+SP_API bool sp_wavefronts_flight_near(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near,
+                                      sp_flight *flight);
 
 /* How a flight with drag changes as its end moves from where it is: derivatives by the share of the move. */
 typedef struct {
@@ -69,14 +70,14 @@ typedef struct {
     sp_vec3 velocity;  /* on arrival, m/s */
     double spread;     /* of its logarithm */
 } sp_flight_change;
-/* `flight` is one that sp_fronts_flights has found; `move` in m. Nothing is finite at the limit of reach. */
-SP_API sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flight, sp_vec3 move);
+/* `flight` is one that sp_wavefronts_flights has found; `move` in m. Nothing is finite at the limit of reach. */
+SP_API sp_flight_change sp_wavefronts_change(const sp_wavefronts *fronts, const sp_flight *flight, sp_vec3 move);
 
 /* How liquid leaves a nozzle of one pattern, wherever that is and however it is turned. */
 typedef struct {
-    double speed;             /* m/s */
-    const sp_fronts *fronts;  /* borrowed, of what leaves so; NULL: it flies without drag */
-    sp_trajectory trajectory; /* its type's own; auto: the evaluator's */
+    double speed;                /* m/s */
+    const sp_wavefronts *fronts; /* borrowed, of what leaves so; NULL: it flies without drag */
+    sp_trajectory trajectory;    /* its type's own; auto: the evaluator's */
 } sp_launch;
 
 /* The flights of what leaves so, low arc first: 0, 1 or 2; `gravity` for those without drag. */

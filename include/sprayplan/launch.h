@@ -1,4 +1,5 @@
-/* The ways in which nozzles' liquid leaves them, with drag each with its fronts: found once, for any number of flights.
+/* The ways in which nozzles' liquid leaves them, with drag each with its wavefronts: found once, for any number of
+ * flights.
  */
 #ifndef SPRAYPLAN_LAUNCH_H
 #define SPRAYPLAN_LAUNCH_H

@@ -200,7 +200,7 @@ SP_API void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, 
  * members, with more than SP_MEMBERS, or with a member that is a cluster or not whole, or whose share is not above 0.
  * Whatever takes a nozzle or a layout asks that first, and of nozzles what is said of these; it fails with
  * SP_ERROR_ARGUMENT. */
-SP_API bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
+SP_API bool sp_type_is_valid(const sp_nozzle_type *type, sp_error *error);
 
 /* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates or is measured. The
  * region of each kind: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y),

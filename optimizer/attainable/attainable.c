@@ -1,7 +1,7 @@
 #include "attainable/attainable.h"
 
 #include "attainable/reflected.h"
-#include "attainable/passing.h"
+#include "attainable/moving_goods.h"
 #include "attainable/by_fields.h"
 #include "scoring/footprints.h"
 #include "scoring/mount_capacity.h"
@@ -245,7 +245,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
         bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
         done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
                (deadline->cancelled || (sp_attain_by_fields(fine, search, scopes, deadline, reasons, error) &&
-                                        (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
+                                        (moves ? sp_moving_goods_reasons(fine, search, deadline, reasons, error)
                                                : sp_bounces(fine, search, deadline, reasons, error))));
         doubt(search, sp_evaluator_patches(fine)->count, reasons);
         if (sp_evaluator_counts_thrown_back(fine))

@@ -1,9 +1,9 @@
 #include "candidates/mounts.h"
 
-#include "candidates/sound_options.h"
+#include "candidates/valid_options.h"
 
 #include "deadline/deadline.h"
-#include "allowed.h"
+#include "valid_range.h"
 #include "mesh/distance.h"
 #include "mesh/grow.h"
 #include "trace/distance.h"
@@ -340,7 +340,7 @@ bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *opti
 bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_options *options, size_t *all, size_t *usable,
                            sp_error *error)
 {
-    if (!evaluator || !options || !sp_run_is_sound(&options->run, error) || !sp_mounts_are_sound(options, error))
+    if (!evaluator || !options || !sp_run_is_valid(&options->run, error) || !sp_mounts_are_valid(options, error))
         return false;
     sp_sites sites;
     if (!list_sites(evaluator, options, &sites, error))

@@ -1,8 +1,9 @@
 #include "certificate/certificate.h"
 
 #include "certificate/aim_bound.h"
-#include "certificate/every_bound.h"
+#include "certificate/exhaustive_bound.h"
 #include "certificate/front_bounds.h"
+#include "certificate/least_water.h"
 
 #include <assert.h>
 #include <math.h>
@@ -12,7 +13,6 @@
 #define ROUNDS_FIRST 2       /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1       /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 2       /* such waters */
-#define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
 #define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
 #define WORK_EACH 2.4e4      /* the same, besides, for every candidate */
 #define WORK_POINT_LEAST 3e8 /* that a point may take at first */
@@ -28,52 +28,7 @@
 #define WORK_MORE 8              /* times as much for a point as in the pass before */
 #define ROUNDS_POINT 3           /* for a point */
 #define CANDIDATES_PROVING 51200 /* most that come into question for it */
-#define STEP_RAISED 0.1 /* of the way to the proposal's water, that the least is sought to be raised by at first */
-#define STEP_LEAST 0.02 /* and at last */
-#define LESS 1e-9       /* of an area, that is as much */
-
-/* Lowers the bound at this water. `done`: how far the certificate is. */
-static bool lower(sp_certifying *c, size_t water, size_t rounds, double done, sp_error *error)
-{
-    return !sp_certifying_has_time(c, done) || sp_lower_bound(c, water, rounds, error);
-}
-
-/* The least water for what the proposal covers. Bounds are lowered between where they first allow it and the proposal,
- * at `most`, the nearer to the former the more trials have yielded nothing. */
-static bool lower_water(sp_certifying *c, double area, size_t most, size_t trials, size_t rounds, sp_error *error)
-{
-    double step = STEP_WATER;
-    for (size_t trial = 0; trial < trials; trial++) {
-        size_t water = sp_bound_water(&c->bound, area);
-        if (!water || water >= most)
-            return true;
-        if (!lower(c, water + (size_t)(step * (double)(most - water)), rounds,
-                   0.3 + 0.3 * (double)trial / (double)trials, error))
-            return false;
-        if (sp_bound_water(&c->bound, area) == water)
-            step *= 0.5;
-    }
-    return true;
-}
-
-/* Raises the water below which nothing covers what the proposal does, step by step. */
-static bool raise_water(sp_certifying *c, double area, size_t most, sp_effort effort, sp_error *error)
-{
-    double work = 0, step = STEP_RAISED;
-    for (size_t water; step > STEP_LEAST && work < effort.work && sp_certifying_has_time(c, c->done);) {
-        water = sp_bound_water(&c->bound, area);
-        if (!water || water >= most)
-            return true;
-        size_t higher = water + (size_t)ceil(step * (double)(most - water));
-        work += sp_pricing_work(c, effort.rounds);
-        if (!sp_lower_bound(c, higher, effort.rounds, error) ||
-            (c->bound.complete && c->bound.by_water[higher] >= area &&
-             !sp_look_at_layouts(c, higher, area * (1 - LESS), 0, effort, &work, error)))
-            return false;
-        step *= sp_bound_water(&c->bound, area) > higher ? 1 : 0.5;
-    }
-    return true;
-}
+#define LESS 1e-9                /* of an area, that is as much */
 
 /* What a point may take at first. */
 static double work_at_point(const sp_certifying *c)
@@ -88,13 +43,13 @@ static bool prove(sp_certifying *c, size_t water, double area, sp_error *error)
     double tolerance = c->bound.tolerance;
     c->bound.iterations = ITERATIONS_PROVING;
     c->bound.tolerance = TOLERANCE_PROVING;
-    bool done = lower(c, water, ROUNDS_PROVING, 0.5, error) &&
-                lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
+    bool done = sp_lower_bound_in_time(c, water, ROUNDS_PROVING, 0.5, error) &&
+                sp_lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
     sp_effort most = {WORK_PROVING, WORK_MORE * work_at_point(c), ROUNDS_POINT, CANDIDATES_PROVING};
     for (int pass = 0; done && pass < PASSES_PROVING; pass++, most.each *= WORK_MORE)
-        done = sp_lower_front(c, most, error) && raise_water(c, area, water, most, error);
+        done = sp_lower_front(c, most, error) && sp_raise_water(c, area, water, most, error);
     return done;
 }
 
@@ -104,7 +59,8 @@ static bool lower_single(sp_certifying *c, sp_error *error)
     size_t lightest = c->bound.lightest;
     return sp_bound_lower_single(&c->bound, error) &&
            (lightest > c->problem.cover.water ||
-            sp_pricings_note(&c->pricings, (double)lightest, c->bound.by_water[lightest]) || sp_fail_memory(error));
+            sp_priced_waters_note(&c->priced_waters, (double)lightest, c->bound.by_water[lightest]) ||
+            sp_fail_memory(error));
 }
 
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
@@ -117,8 +73,9 @@ static bool lower_all(sp_certifying *c, size_t water, double area, sp_error *err
             break;
         else if (!sp_bound_explore(&c->bound, water, error))
             return false;
-    return lower(c, water, 1, 0.1, error) && lower_single(c, error) && lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
-           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) && sp_lower_front(c, most, error) &&
+    return sp_lower_bound_in_time(c, water, 1, 0.1, error) && lower_single(c, error) &&
+           sp_lower_bound_in_time(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
+           sp_lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) && sp_lower_front(c, most, error) &&
            sp_lower_gaps(c, error);
 }
 
@@ -155,7 +112,7 @@ static bool certify(sp_certifying *c, sp_front *front, sp_certificate *certifica
     size_t water = sp_problem_budget(&c->problem, front->best.outlay);
     double area = sp_partial_counted(c->problem.search, &front->best);
     bool known;
-    if (!sp_bound_by_every_layout(c, &known, error) || (!known && !lower_all(c, water, area, error)))
+    if (!sp_exhaustive_bound(c, &known, error) || (!known && !lower_all(c, water, area, error)))
         return false;
     certificate->every_layout = known;
     if (!c->bound.proofs)

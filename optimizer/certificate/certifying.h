@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_CERTIFYING_H
 #define OPTIMIZER_CERTIFYING_H
 
-#include "certificate/pricings.h"
+#include "certificate/priced_waters.h"
 #include "certificate/problem.h"
 
 /* A layout of the front, or the proposal. */
@@ -26,7 +26,7 @@ typedef struct {
     sp_problem problem;
     sp_deadline *deadline;
     sp_bound bound;
-    sp_pricings pricings;
+    sp_priced_waters priced_waters;
     size_t point_count;
     sp_certified_point *points;
     double done; /* how far it all is, 0 to 1 */
@@ -44,6 +44,8 @@ double sp_pricing_work(const sp_certifying *c, size_t rounds);
 
 /* Solves at this water and prices all candidates, `rounds` times. */
 bool sp_lower_bound(sp_certifying *c, size_t water, size_t rounds, sp_error *error);
+/* The same if there is time. `done`: how far the certificate is. */
+bool sp_lower_bound_in_time(sp_certifying *c, size_t water, size_t rounds, double done, sp_error *error);
 /* The same where the bound is `open` m² above the best layout found. Where that gap is wide, the solve begins on groups
  * of texels: iterations on these get further in as much time, but cannot tell what makes up a narrow gap. */
 bool sp_lower_open_bound(sp_certifying *c, size_t water, double open, size_t rounds, sp_error *error);

@@ -1,6 +1,6 @@
 /* What every candidate pose is worth at given multipliers of the texels: swept from what was traced, no pose's row
  * stored. What its files share: rows (pose_rows.h), the price of one pose (pose_price.h), all of them as a list
- * (pose_listing.h), and the best for a bound (pose_pricer.h). */
+ * (pose_list.h), and the best for a bound (best_poses.h). */
 #ifndef OPTIMIZER_POSE_PRICING_H
 #define OPTIMIZER_POSE_PRICING_H
 

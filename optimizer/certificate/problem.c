@@ -1,7 +1,7 @@
 #include "certificate/problem.h"
 
-#include "certificate/pose_listing.h"
-#include "certificate/pose_pricer.h"
+#include "certificate/pose_list.h"
+#include "certificate/best_poses.h"
 #include "certificate/pose_rows.h"
 #include "scoring/mount_capacity.h"
 #include "scoring/scoring.h"
@@ -225,7 +225,7 @@ static bool prepare(sp_problem *p, sp_error *error)
     p->pricing = sp_pose_pricing_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
     if (!p->pricing)
         return false;
-    p->pricer = sp_pose_pricer(p->pricing);
+    p->pricer = sp_best_poses(p->pricing);
     return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
            sp_pose_list(p->pricing, &p->order, &p->list, error);

@@ -85,8 +85,8 @@ static sp_ranked *rank_close(const sp_front *front, size_t *count)
     return ranked;
 }
 
-/* Walks from the closest layouts, by turns. */
-static bool walk_closest(sp_refining *refining)
+/* Anneals the closest layouts, by turns. */
+static bool anneal_closest(sp_refining *refining)
 {
     sp_trials trials = {0};
     size_t count;
@@ -95,7 +95,7 @@ static bool walk_closest(sp_refining *refining)
     size_t turns = count < CLOSEST ? count : CLOSEST;
     for (size_t k = 0; done && turns && k < WALKS; k++) {
         const sp_front_entry *entry = &refining->front->by_water.entries[ranked[k % turns].at];
-        done = sp_try_also(refining, &trials, &entry->partial, entry->point.outlay * (1 + LEEWAY), SP_TRIAL_WALK);
+        done = sp_try_also(refining, &trials, &entry->partial, entry->point.outlay * (1 + LEEWAY), SP_TRIAL_ANNEALING);
     }
     free(ranked);
     done = done && sp_trials_carry_out(refining, &trials);
@@ -140,7 +140,7 @@ static bool sharpen_closest(sp_refining *refining)
     return done;
 }
 
-/* At first without walks, so that there soon is something. */
+/* At first without annealing, so that there soon is something. */
 bool sp_refine_hurried(sp_refining *refining)
 {
     const sp_front *front = refining->front;
@@ -151,7 +151,7 @@ bool sp_refine_hurried(sp_refining *refining)
         bool done = ask_rungs(refining, &trials) && sp_find_others(refining, &trials) &&
                     keep_promising(refining, &trials) && sp_trials_carry_out(refining, &trials);
         sp_trials_free(&trials);
-        if (!done || (pass && !walk_closest(refining)) || !sharpen_closest(refining))
+        if (!done || (pass && !anneal_closest(refining)) || !sharpen_closest(refining))
             return false;
         gained = pass == 0 || !sp_point_same(&before, &front->measured);
     }

@@ -4,7 +4,7 @@
 #include "refine/compass.h"
 #include "refine/dealt_trials.h"
 #include "scoring/scoring.h"
-#include "search/walk.h"
+#include "search/simulated_annealing.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -19,12 +19,12 @@
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last local search starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
-#define STARTS 2        /* of annealing */
-#define TURNS 4         /* of walks and new layouts, as many as STARTS that are annealed first */
-#define WALK 1e8        /* patches that a walk goes through */
+#define STARTS 2        /* of continuation */
+#define TURNS 4         /* of annealed and new layouts, as many as STARTS that continuation refines first */
+#define ANNEALING 1e8   /* patches that simulated annealing goes through */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
-    0.005 /* of what was covered before a walk: with more to make up for, annealing is the end of it                   \
+    0.005 /* of what was covered before: with more to make up for, continuation is the end of it                       \
            */
 
 static bool sights_create(const sp_search *search, int threads, bool exact, sp_sights **sights, sp_error *error)
@@ -137,22 +137,22 @@ static bool fit(sp_sights *sights, double budget, sp_partial *partial, bool *fit
     return true;
 }
 
-/* Which start, of those that widen, a trial is annealed from: by turns, or none. Compass finds as much where there is
- * little to forget. */
+/* Which start, of those that widen, continuation takes for a trial: by turns, or none. Compass finds as much where
+ * there is little to forget. */
 static size_t turn_of(const sp_trial *trial)
 {
     return trial->seed % TURNS < STARTS ? trial->seed % TURNS : STARTS;
 }
 
-/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
-static bool anneal(const sp_local_search *local, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
-                   sp_error *error)
+/* From ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
+static bool continue_wider(const sp_local_search *local, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
+                           sp_error *error)
 {
     static const size_t starts[STARTS] = {3, 0};
     double water = sp_partial_water(local->search, partial, trial->budget);
     for (size_t i = 0; i < STARTS; i++)
-        if ((trial->kind == SP_TRIAL_ANNEAL || i == turn_of(trial)) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, water, local->deadline, partial, error))
+        if ((trial->kind == SP_TRIAL_CONTINUATION || i == turn_of(trial)) &&
+            !sp_continuation(sights, starts[i], SP_WIDTHS, water, local->deadline, partial, error))
             return false;
     return true;
 }
@@ -167,7 +167,7 @@ static bool refine(const sp_local_search *local, sp_sights *sights, const sp_tri
     double water = sp_partial_water(local->search, refined, trial->budget);
     bool done = fit(sights, trial->budget, refined, &fits, error);
     if (done && fits)
-        done = anneal(local, sights, trial, refined, error) &&
+        done = continue_wider(local, sights, trial, refined, error) &&
                (refined->covered < before * (1 - BEHIND_MOST) ||
                 sp_compass(sights, STEP_FIRST, STEP_LEAST, water, local->deadline, refined, error));
     if (!done)
@@ -188,12 +188,13 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
     return done;
 }
 
-/* Walks, where the trial is to begin so. */
-static bool walk(const sp_local_search *local, sp_trial *trial, sp_error *error)
+/* Anneals, where the trial is to begin so. */
+static bool anneal(const sp_local_search *local, sp_trial *trial, sp_error *error)
 {
-    return trial->kind != SP_TRIAL_WALK || (sp_partial_copy(local->search, &trial->partial, &trial->start, error) &&
-                                            sp_walk(&local->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
-                                                    trial->seed, local->deadline, &trial->start, error));
+    return trial->kind != SP_TRIAL_ANNEALING ||
+           (sp_partial_copy(local->search, &trial->partial, &trial->start, error) &&
+            sp_simulated_annealing(&local->tuned.search, trial->budget * (1 + SP_ROUNDING), ANNEALING, trial->seed,
+                                   local->deadline, &trial->start, error));
 }
 
 static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
@@ -211,7 +212,7 @@ static bool are_same(const sp_partial *a, const sp_partial *b)
     return same;
 }
 
-/* Many walks find nothing and end where they began. What is annealed alike from there comes to the same: once is
+/* Often annealing finds nothing and ends where it began. What is refined alike from there comes to the same: once is
  * enough. */
 static void find_repeats(sp_trial *trials, size_t count)
 {
@@ -225,9 +226,9 @@ static void find_repeats(sp_trial *trials, size_t count)
 /* What the trial starts from. */
 static bool begin(const sp_local_search *local, sp_trial *trial, sp_partial *start, sp_error *error)
 {
-    const sp_partial *from = trial->kind == SP_TRIAL_OTHER  ? &trial->other
-                             : trial->kind == SP_TRIAL_WALK ? &trial->start
-                                                            : &trial->partial;
+    const sp_partial *from = trial->kind == SP_TRIAL_OTHER       ? &trial->other
+                             : trial->kind == SP_TRIAL_ANNEALING ? &trial->start
+                                                                 : &trial->partial;
     if (!sp_partial_copy(local->search, from, start, error))
         return false;
     sp_tuned_settle(&local->tuned, start);
@@ -285,7 +286,7 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
 
 bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done = sp_trials_for_each(local, trials, count, false, walk, error);
+    bool done = sp_trials_for_each(local, trials, count, false, anneal, error);
     find_repeats(trials, count);
     done = done && sp_trials_for_each(local, trials, count, false, search_locally, error) &&
            sp_trials_share_merits(local, trials, count, error);
@@ -316,7 +317,7 @@ static bool sharpen(const sp_local_search *local, sp_trial *trial, sp_error *err
     if (!transfer(sights, &trial->partial, &sharp, error))
         return false;
     double water = sp_partial_water(local->search, &sharp, trial->budget);
-    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, local->deadline, &sharp, error) &&
+    bool done = sp_continuation(sights, SHARP_START, SP_WIDTHS, water, local->deadline, &sharp, error) &&
                 sp_compass(sights, STEP_SHARP, STEP_LEAST, water, local->deadline, &sharp, error) &&
                 transfer(own, &sharp, &partial, error);
     sp_partial_free(&sharp);

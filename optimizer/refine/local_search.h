@@ -1,4 +1,4 @@
-/* Local search: refining many layouts at once, each annealed and then improved by compass. */
+/* Local search: refining many layouts at once, each by continuation and then by compass. */
 #ifndef OPTIMIZER_LOCAL_SEARCH_H
 #define OPTIMIZER_LOCAL_SEARCH_H
 

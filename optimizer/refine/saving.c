@@ -36,7 +36,7 @@ bool sp_save_flow(sp_refining *refining, const sp_partial *full)
     return done;
 }
 
-/* Makes up for what a layout is missing, if that may be: anneals it, and walks from it on another core. */
+/* Makes up for what a layout is missing, if that may be: by continuation, and by annealing on another core. */
 static bool make_up(sp_refining *refining, const sp_partial *partial, double budget)
 {
     const sp_front *front = refining->front;
@@ -44,8 +44,8 @@ static bool make_up(sp_refining *refining, const sp_partial *partial, double bud
     if (missing > MISSING_MOST * front->target || !sp_deadline_goes_on(refining->deadline, "refine", 0))
         return true;
     sp_trials trials = {0};
-    bool done = sp_try_also(refining, &trials, partial, budget, SP_TRIAL_ANNEAL) &&
-                sp_try_also(refining, &trials, partial, budget, SP_TRIAL_WALK) &&
+    bool done = sp_try_also(refining, &trials, partial, budget, SP_TRIAL_CONTINUATION) &&
+                sp_try_also(refining, &trials, partial, budget, SP_TRIAL_ANNEALING) &&
                 sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;

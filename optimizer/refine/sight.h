@@ -17,7 +17,7 @@ typedef struct {
     uint64_t used;          /* when, for the sights to forget the one that was not needed for longest */
 } sp_sight;
 
-/* Sights kept for another look: annealing, line search and compass come back to the same places. */
+/* Sights kept for another look: continuation, line search and compass come back to the same places. */
 typedef struct {
     const sp_search *search;
     double tolerance; /* m; 0: sights from just there alone */

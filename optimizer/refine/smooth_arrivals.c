@@ -120,7 +120,7 @@ static double shift(const sp_posed *posed, const sp_borne *borne, const sp_arriv
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
     if (posed->sight->launch.fronts) {
-        sp_flight_change change = sp_fronts_change(posed->sight->launch.fronts, &borne->flight, by);
+        sp_flight_change change = sp_wavefronts_change(posed->sight->launch.fronts, &borne->flight, by);
         *turn = change.direction;
         return sp_dot(seen->normal, change.velocity) / sp_dot(seen->normal, w) - change.spread;
     }

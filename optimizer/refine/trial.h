@@ -2,14 +2,14 @@
 #ifndef OPTIMIZER_TRIAL_H
 #define OPTIMIZER_TRIAL_H
 
-#include "refine/anneal.h"
+#include "refine/continuation.h"
 #include "search/tuned.h"
 
 typedef enum {
-    SP_TRIAL_ANNEAL,   /* the layout as it is, annealed from every start */
-    SP_TRIAL_BY_TURNS, /* the same, annealed by turns as all that follow */
-    SP_TRIAL_WALK,     /* after a walk */
-    SP_TRIAL_OTHER,    /* another in its place */
+    SP_TRIAL_CONTINUATION, /* the layout as it is, by continuation from every start */
+    SP_TRIAL_BY_TURNS,     /* the same, from one of the starts by turns as all that follow */
+    SP_TRIAL_ANNEALING,    /* after simulated annealing */
+    SP_TRIAL_OTHER,        /* another in its place */
 } sp_trial_kind;
 
 /* One layout to search from at equal water. */
@@ -18,8 +18,8 @@ typedef struct {
     sp_partial partial; /* what comes out takes its place, if better, and no other of the same water much more so */
     sp_partial other;   /* of the tuned search, where that kind asks for it */
     double budget;      /* m³/s of outlay */
-    uint64_t seed;      /* of the walk */
-    sp_partial start;   /* where the walk of that kind ended */
+    uint64_t seed;      /* of the annealing */
+    sp_partial start;   /* where the annealing of that kind ended */
     bool repeats;       /* another is refined in the same way from there */
     bool better;        /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
     sp_partial refined; /* on few patches */
@@ -33,7 +33,7 @@ typedef struct {
     sp_search rough;
     sp_evaluator *sharp_evaluator; /* NULL: the final patches are few enough */
     sp_search sharp;               /* on these */
-    sp_tuned tuned;                /* where walks and other layouts find their poses */
+    sp_tuned tuned;                /* where annealing and other layouts find their poses */
     int threads;
     sp_sights *sights, *rough_sights, *sharp_sights; /* [threads]; the first are exact */
 } sp_local_search;

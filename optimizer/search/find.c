@@ -2,10 +2,10 @@
 
 #include "scoring/prepare.h"
 #include "scoring/partial_packing.h"
-#include "search/best_of_every.h"
+#include "search/exhaustive_best.h"
 #include "search/fewest.h"
 #include "search/partial_enumeration.h"
-#include "search/walk.h"
+#include "search/simulated_annealing.h"
 
 #include <stdlib.h>
 
@@ -15,7 +15,7 @@
 #define STARTS 2         /* of the search at one outlay */
 #define STEPS_NOTED 12   /* layouts of a layout's first nozzles that are measured, about */
 #define STEPS_SHARE 0.1  /* of the time left, for these */
-#define WALK 4e8         /* patches that a walk from the better of these goes through */
+#define ANNEALING 4e8    /* patches that annealing the better of these goes through */
 
 typedef struct {
     const sp_search *search;
@@ -125,8 +125,8 @@ static sp_ranks *ranks_of(const sp_finding *finding)
     return finding->search->options->run.ranks;
 }
 
-/* Walks on from every layout that is this rank's within its budget, many at a time. */
-static bool walk_all(const sp_finding *finding, const double *budgets, sp_partial *partials, size_t count)
+/* Anneals every layout that is this rank's within its budget, many at a time. */
+static bool anneal_all(const sp_finding *finding, const double *budgets, sp_partial *partials, size_t count)
 {
     sp_error failure = {0};
     int threads = sp_sweeper_threads(finding->search);
@@ -136,7 +136,8 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_partia
         size_t i = count - 1 - k;
         sp_error mine = {0};
         if (sp_ranks_mine(ranks_of(finding), i) &&
-            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->deadline, &partials[i], &mine)) {
+            !sp_simulated_annealing(finding->search, budgets[i], ANNEALING, i + 1, finding->deadline, &partials[i],
+                                    &mine)) {
 #pragma omp critical(sp_find_failure)
             failure = mine;
         }
@@ -155,7 +156,7 @@ static bool share_partials(const sp_finding *finding, sp_partial *partials, size
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i))
             sp_pack_partial(finding->search, &partials[i], &outgoing);
-    if (!sp_ranks_gather(ranks, "walks", &outgoing, &gathered, finding->error))
+    if (!sp_ranks_gather(ranks, "annealing", &outgoing, &gathered, finding->error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < count; i++)
@@ -176,7 +177,7 @@ static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, 
         done = sp_partial_create(finding->search, &partials[i], finding->error) &&
                start_at(finding, greedy, &enumerated[i], budgets[i], &partials[i]);
     sp_ranks_part(ranks_of(finding));
-    done = done && walk_all(finding, budgets, partials, count);
+    done = done && anneal_all(finding, budgets, partials, count);
     sp_ranks_rejoin(ranks_of(finding));
     done = done && share_partials(finding, partials, count);
     done = done && sp_front_measure_all(finding->front, finding->search, partials, count, finding->error);
@@ -293,8 +294,8 @@ static bool try_every_layout(const sp_finding *finding, bool *whole)
 {
     sp_partial *partials;
     size_t count;
-    bool done = sp_best_of_every_layout(finding->search, finding->front, finding->budget, finding->deadline, &partials,
-                                        &count, whole, finding->error) &&
+    bool done = sp_exhaustive_best(finding->search, finding->front, finding->budget, finding->deadline, &partials,
+                                   &count, whole, finding->error) &&
                 sp_front_measure_all(finding->front, finding->search, partials, count, finding->error);
     for (size_t i = 0; i < count; i++)
         sp_partial_free(&partials[i]);

@@ -20,12 +20,12 @@ sp_front sp_front_anew(sp_front *front)
     sp_front anew = {.fine = front->fine,
                      .draft_jets = front->draft_jets,
                      .counted = front->counted,
-                     .flown = front->flown,
+                     .jet_cache = front->jet_cache,
                      .deadline = front->deadline,
                      .objective = front->objective,
                      .target = front->target};
     front->counted = (sp_front_list){0};
-    front->flown = (sp_flown){0};
+    front->jet_cache = (sp_jet_cache){0};
     return anew;
 }
 
@@ -118,7 +118,7 @@ static bool evaluate(sp_front *front, const sp_search *search, const sp_layout *
     if (flies_jets(front)) {
         const sp_evaluator *evaluator = front->draft_jets ? search->coarse : front->fine;
         int reflections = sp_evaluator_fidelity(front->fine)->reflections;
-        return sp_flown_area(&front->flown, evaluator, front->draft_jets, reflections, layout, area, error);
+        return sp_jet_cache_area(&front->jet_cache, evaluator, front->draft_jets, reflections, layout, area, error);
     }
     sp_coverage *coverage = sp_evaluate(front->fine, layout, error);
     bool done = coverage != NULL;
@@ -345,6 +345,6 @@ void sp_front_free(sp_front *front)
     list_free(&front->by_number);
     list_free(&front->counted);
     sp_partial_free(&front->best);
-    sp_flown_free(&front->flown);
+    sp_jet_cache_free(&front->jet_cache);
     *front = (sp_front){0};
 }

@@ -5,7 +5,7 @@
 
 #include "deadline/deadline.h"
 #include "scoring/partial.h"
-#include "search/flown.h"
+#include "search/jet_cache.h"
 
 #include <math.h>
 
@@ -27,8 +27,8 @@ typedef struct {
     const sp_evaluator *fine;
     uint64_t draft_jets; /* of a nozzle, on the search's patches; 0: layouts are measured as the scene says; stays what
                           * it is from the first layout on */
-    sp_front_list counted; /* layouts of which is known what the scene says, for the end, in the order of finding */
-    sp_flown flown;        /* where jets tell what layouts cover */
+    sp_front_list counted;  /* layouts of which is known what the scene says, for the end, in the order of finding */
+    sp_jet_cache jet_cache; /* where jets tell what layouts cover */
     sp_deadline *deadline;
     sp_objective objective;
     double target; /* m² */

@@ -54,7 +54,7 @@ sp_mesh *cli_load_mesh(const cli_options *options, sp_error *error);
 /* To be closed, unless it is stdin. */
 FILE *cli_open(const char *path, sp_error *error);
 
-/* waiting.c: lets threads sleep where they wait for one another, instead of asking again and again, which takes the
+/* wait_policy.c: lets threads sleep where they wait for one another, instead of asking again and again, which takes the
  * processor from other programs and from one another. Before the first thread; starts the program anew with all of its
  * arguments, or returns where there is nothing to do or it cannot. */
 void cli_sleep_while_waiting(char *const *arguments);
@@ -107,11 +107,11 @@ void cli_clock_stage(cli_clock *clock, const char *name);
 void cli_meter_start(void);
 size_t cli_meter_peak(void); /* the most since the start, beyond what was held then */
 
-/* ending.c: what follows the work that --time-limit is for has to fit into it as well. */
+/* picture_time.c: what follows the work that --time-limit is for has to fit into it as well. */
 /* How long errors, pictures and files will take, s, judged by drawing small pictures of `design`; `count` such designs
  * will be told of. 0 without a limit. */
-bool cli_ending_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
-                     sp_error *error);
+bool cli_picture_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
+                      sp_error *error);
 /* What is left out for lack of time, in words. */
 enum { CLI_LEFT_OUT = 8, CLI_LEFT_OUT_TEXT = 80 };
 typedef struct {

@@ -1,7 +1,7 @@
 /* Command-line options. Long ones are to be written out: an abbreviation may come to mean something else. */
 #include "cli.h"
 
-#include "../scene/slips.h"
+#include "../scene/edit_distance.h"
 #include "rays.h"
 #include "topics.h"
 
@@ -205,7 +205,7 @@ static const char *closest(const char *text, const char *(*name)(size_t index), 
     const char *found = NULL;
     size_t least = SIZE_MAX, length = strlen(text);
     for (size_t i = 0; i < count; i++) {
-        size_t slips = name(i) ? sp_text_slips(text, name(i)) : SIZE_MAX;
+        size_t slips = name(i) ? sp_edit_distance(text, name(i)) : SIZE_MAX;
         if (name(i) && length > 1 && !strncmp(text, name(i), length))
             slips = 0;
         if (slips < least) {

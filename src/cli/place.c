@@ -228,7 +228,8 @@ static bool reserve_ending(const cli_options *options, const cli_scene *opened, 
     sp_coverage *dry = found->manual ? NULL : sp_evaluate(opened->evaluator, layout, error);
     const sp_coverage *coverage = found->manual ? found->manual : dry;
     sp_design design = coverage ? cli_design(opened, "", opened->evaluator, layout, coverage) : (sp_design){0};
-    bool good = coverage && cli_ending_time(options, &design, designs + (found->manual != NULL), &found->ending, error);
+    bool good =
+        coverage && cli_picture_time(options, &design, designs + (found->manual != NULL), &found->ending, error);
     sp_coverage_destroy(dry);
     return good;
 }

@@ -1,7 +1,7 @@
 #include "film/flood.h"
 
-#include "mesh/lesser.h"
-#include "mesh/order.h"
+#include "mesh/min_max.h"
+#include "mesh/key_sort.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/heap.h"
 

@@ -3,7 +3,7 @@
 #include "atlas/texels/borders.h"
 #include "mesh/diagnosis/flaw.h"
 #include "mesh/grow.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>
@@ -16,8 +16,9 @@ typedef struct {
     double across[2], length, crest;
 } piece;
 
-#define CRACK 0.02 /* of the wave, half a millimetre of water, the thickness of a film: it goes on over such a crack   \
-                    */
+#define CRACK                                                                                                          \
+    0.02 /* of the wave, half a millimetre of water, the thickness of a film: it goes on over such a crack             \
+          */
 
 enum { RECENT = 4096 };
 

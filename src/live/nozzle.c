@@ -50,7 +50,7 @@ static sp_aim aim_of(const sp_emitter *emitter)
 
 /* Of what is known the arrivals that the spray takes. */
 static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emitter, double flow, unsigned stride,
-                      sp_tally *tally)
+                      sp_combination *tally)
 {
     sp_arrival *taken = malloc((kept->reach->count + 1) * sizeof *taken);
     if (!taken)
@@ -69,7 +69,7 @@ static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emi
 }
 
 /* What the spray alone reaches. */
-static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_tally *tally)
+static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_combination *tally)
 {
     sp_aim aim = aim_of(emitter);
     aim.among = stride > 1 ? live->sample.among : NULL;
@@ -81,7 +81,8 @@ static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, un
     return true;
 }
 
-static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *bodies, unsigned stride, sp_tally *tally)
+static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *bodies, unsigned stride,
+                         sp_combination *tally)
 {
     const sp_layout *patterns = bodies->patterns;
     bool done = true, traced = false;
@@ -95,7 +96,7 @@ static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *b
         done = known ? lay_known(live, kept, &emitter, flow, stride, tally)
                      : lay_traced(live, &emitter, flow, stride, tally);
     }
-    sp_tally_end_nozzle(tally);
+    sp_combination_end_nozzle(tally);
     live->figures[SP_LIVE_TRACED] += traced;
     return done;
 }
@@ -146,15 +147,15 @@ bool sp_live_lay(sp_live *live, sp_live_nozzle *kept, const sp_nozzle *nozzle, u
         return true;
     sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
     sp_bodies bodies;
-    sp_tally tally = {0};
+    sp_combination tally = {0};
     sp_coverage_destroy(kept->alone);
     kept->laid = false;
     kept->alone = sp_bodies_create(live->evaluator, &one, &bodies, &live->error)
                       ? sp_coverage_create(live->evaluator, &live->error)
                       : NULL;
-    bool done = kept->alone && sp_tally_create(live->evaluator, &kept->alone->deposits, &tally, &live->error) &&
+    bool done = kept->alone && sp_combination_create(live->evaluator, &kept->alone->deposits, &tally, &live->error) &&
                 lay_patterns(live, kept, &bodies, stride, &tally);
-    sp_tally_free(&tally);
+    sp_combination_free(&tally);
     sp_bodies_free(&bodies);
     kept->laid = done;
     kept->stride = stride;

@@ -2,7 +2,7 @@
 
 #include "mesh/box_pairs.h"
 #include "mesh/grow.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>

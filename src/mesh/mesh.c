@@ -1,4 +1,4 @@
-#include "allowed.h"
+#include "valid_range.h"
 #include "mesh/allocate.h"
 #include "mesh/grow.h"
 #include "mesh/soup.h"

@@ -5,7 +5,7 @@
 #include "mesh/polygon.h"
 
 #include "mesh/ears.h"
-#include "mesh/tangle.h"
+#include "mesh/self_crossing.h"
 
 #include <stdlib.h>
 
@@ -100,7 +100,7 @@ static bool cut_inside(const polygon *p, sp_vec3 area, sp_facets *cut, sp_error 
     if (good)
         lay_flat(p, area, flat);
     if (good && p->count <= LOOKED_AT)
-        good = sp_find_tangle((const double(*)[2])flat, p->count, &cut->tangled, error);
+        good = sp_find_self_crossing((const double(*)[2])flat, p->count, &cut->tangled, error);
     if (good && !cut->tangled) {
         cut->triangles = malloc((p->count - 2) * sizeof *cut->triangles);
         bool done = false;

@@ -1,8 +1,8 @@
 #include "mounts/mount_geometry.h"
 
-#include "allowed.h"
+#include "valid_range.h"
 #include "mesh/distance.h"
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 
 #define TOLERANCE 4e-4      /* of the geometry's diagonal */
 #define LEAN_SLACK 0.01     /* rad, by which an axis may be written too slanted */
@@ -149,7 +149,7 @@ size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, 
 bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
                      sp_error *error)
 {
-    if (!setup || !nozzle || !sp_nozzle_is_whole(nozzle, error) ||
+    if (!setup || !nozzle || !sp_nozzle_is_valid(nozzle, error) ||
         !sp_is_listed((sp_owner){"", ""}, "mounts", mounts, count, error))
         return false;
     double tolerance = sp_mount_tolerance(setup);

@@ -1,12 +1,12 @@
 /* A layout as a fitter measures it. */
 #include <sprayplan/fitting.h>
 
-#include "allowed.h"
+#include "valid_range.h"
 #include "fitting_decimals.h"
 #include "mesh/distance.h"
 #include "mounts/mount_geometry.h"
 #include "nozzle/pattern.h"
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 
 #include <stdlib.h>
 
@@ -157,7 +157,7 @@ static bool is_round(const sp_setup *setup)
 sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
                                           size_t mount_count, sp_error *error)
 {
-    if (!layout || !setup || !sp_layout_is_whole(layout, error) ||
+    if (!layout || !setup || !sp_layout_is_valid(layout, error) ||
         !sp_is_listed((sp_owner){"", ""}, "mounts", mounts, mount_count, error))
         return NULL;
     static const sp_fitting_place nowhere = {NAN, NAN, NAN, NAN, NAN};

@@ -4,7 +4,7 @@
 
 #include <sprayplan/fitting.h>
 
-/* Of a whole layout (see sp_layout_is_whole) of the setup; `mounts` may be NULL for none. */
+/* Of a whole layout (see sp_layout_is_valid) of the setup; `mounts` may be NULL for none. */
 sp_fitting_decimals sp_fitting_decimals_of(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
                                            size_t mount_count);
 

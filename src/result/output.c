@@ -2,7 +2,7 @@
 #include "result/output.h"
 
 #include "mesh/file.h"
-#include "result/seal.h"
+#include "result/digest.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -194,7 +194,7 @@ bool sp_output_may_replace(sp_output *output, const char *name, bool force, sp_e
     if (!output || !name)
         return false;
     const sp_output_entry *entry = entry_of(output, name, error);
-    sp_seal seal = entry ? sp_seal_check(output->folder, name, error) : SP_SEAL_UNKNOWN;
+    sp_digest seal = entry ? sp_digest_check(output->folder, name, error) : SP_SEAL_UNKNOWN;
     if (seal == SP_SEAL_BROKEN && !force)
         return sp_fail(
             error, SP_ERROR_FILE, entry->target, 0, 0,
@@ -207,7 +207,7 @@ bool sp_output_scene(sp_output *output, const char *name, const char *text, bool
 {
     if (!text)
         return false;
-    char *sealed = sp_output_may_replace(output, name, force, error) ? sp_seal_text(text, error) : NULL;
+    char *sealed = sp_output_may_replace(output, name, force, error) ? sp_digest_text(text, error) : NULL;
     bool good = sealed && sp_output_text(output, name, sealed, error);
     free(sealed);
     return good;

@@ -33,8 +33,8 @@ bool sp_output_allows(const sp_output *output, const char *name, const char *tar
  * could not be put back: then it is closed, and whoever comes next moves all of it. */
 bool sp_output_move(sp_output *output, sp_error *error);
 
-/* superseded.c: moves to `old` what an earlier run left in `folder` that belongs with files which `fresh` replaces, and
- * is not replaced. Of a set whose own figures are not there nothing is known to be ours. */
+/* stale_outputs.c: moves to `old` what an earlier run left in `folder` that belongs with files which `fresh` replaces,
+ * and is not replaced. Of a set whose own figures are not there nothing is known to be ours. */
 bool sp_move_superseded(const sp_output *output, const sp_staging *staging, sp_error *error);
 bool sp_put_superseded_back(const sp_output *output);
 

@@ -1,5 +1,5 @@
 /* The nozzle catalogue. */
-#include "scene/slips.h"
+#include "scene/edit_distance.h"
 #include "scene/state.h"
 
 #include <stdio.h>
@@ -265,7 +265,7 @@ const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader 
     for (size_t i = 0; i < scene->type_count; i++) {
         if (strcmp(scene->types[i].name, name) == 0)
             return &scene->types[i];
-        size_t slips = sp_text_slips(name, scene->types[i].name);
+        size_t slips = sp_edit_distance(name, scene->types[i].name);
         if (slips < least)
             near = scene->types[i].name;
         least = slips < least ? slips : least;

@@ -1,7 +1,7 @@
 #include "scene/read.h"
 
 #include "mesh/soup.h"
-#include "scene/slips.h"
+#include "scene/edit_distance.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -61,7 +61,7 @@ static bool fail_unknown(const sp_fields *in, const sp_yaml *child)
     size_t least = SIZE_MAX;
     const sp_key *keys = in->block->keys;
     for (const sp_key *key = keys; key->name; key++) {
-        size_t slips = sp_text_slips(child->key, key->name);
+        size_t slips = sp_edit_distance(child->key, key->name);
         if (slips < least)
             snprintf(text, sizeof text, "'%s'", key->name);
         least = slips < least ? slips : least;

@@ -1,5 +1,5 @@
 /* A scene as text: what it says, with another layout and nothing left to auto. */
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 #include "scene/locale.h"
 #include "scene/state.h"
 

@@ -10,7 +10,7 @@ static const double ends = 1e-7;
 
 int sp_source_flights(const sp_source *source, sp_vec3 to, sp_flight flights[2])
 {
-    return source->fronts ? sp_fronts_flights(source->fronts, source->position, to, flights)
+    return source->fronts ? sp_wavefronts_flights(source->fronts, source->position, to, flights)
                           : sp_flights(source->position, to, source->speed, source->gravity, flights);
 }
 

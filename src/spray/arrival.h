@@ -8,10 +8,10 @@
 
 typedef struct {
     const sp_evaluator *evaluator;
-    sp_vec3 position;        /* m */
-    double speed;            /* m/s */
-    const sp_fronts *fronts; /* that leave there, with drag; NULL: lines or parabolas */
-    sp_vec3 gravity;         /* m/s²; zero for lines */
+    sp_vec3 position;            /* m */
+    double speed;                /* m/s */
+    const sp_wavefronts *fronts; /* that leave there, with drag; NULL: lines or parabolas */
+    sp_vec3 gravity;             /* m/s²; zero for lines */
 } sp_source;
 
 typedef struct {

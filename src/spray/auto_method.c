@@ -1,4 +1,4 @@
-/* Method, trajectory and reflections that the setup leaves to auto, whatever the layout. */
+/* Method and reflections that the setup leaves to auto, whatever the layout. */
 #include "auto_settings.h"
 
 #define REFLECTIONS 3

@@ -33,6 +33,8 @@ bool sp_setting_trial_late(const sp_setting_trial *trial);
 /* Half the accuracy is for what the settings do, the other half for other layouts like this one. */
 bool sp_setting_trial_keeps(const sp_setting_trial *trial);
 
+/* Lines in place of parabolas, where that is worth it. auto_trajectory.c. */
+bool sp_auto_trajectory(sp_setting_trial *trial, sp_error *error);
 /* auto_forward.c: jets, texels and reflections of the forward evaluator. */
 bool sp_auto_forward(sp_setting_trial *trial, sp_error *error);
 

@@ -16,7 +16,7 @@
 #include "criterion.h"
 #include "nozzle_bodies.h"
 #include "emitter.h"
-#include "near.h"
+#include "near_patches.h"
 #include "nozzle/pattern.h"
 #include "shaft.h"
 #include "watch.h"

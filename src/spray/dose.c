@@ -1,6 +1,6 @@
 #include "dose.h"
 
-#include "aside.h"
+#include "sure_miss.h"
 #include "movers.h"
 
 #define FINE 4      /* steps of a texel, where spray reaches the point */
@@ -117,7 +117,7 @@ static bool passes_aside(const passing_point *p, size_t first, size_t end)
             to = sp_pass_offset(source->evaluator, p->step * (double)end);
     sp_vec3 middle = sp_along(p->target.point, 0.5, sp_add(from, to));
     double radius = 0.5 * sp_distance(from, to), reach = sp_spray_reach(&emitter->spray);
-    return sp_spray_is_aside(source, emitter->frame.z, reach, emitter, 0, middle, radius);
+    return sp_spray_surely_misses(source, emitter->frame.z, reach, emitter, 0, middle, radius);
 }
 
 /* From position `first`, which *from shows, to `end`, which it shows then. */

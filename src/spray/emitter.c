@@ -14,7 +14,7 @@ static double time_in_mouth(const sp_source *source)
     return g > 0 ? fmin(time, sqrt(2 * length / g)) : time;
 }
 
-sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle, const sp_fronts *fronts)
+sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle, const sp_wavefronts *fronts)
 {
     const sp_setup *setup = &evaluator->setup;
     return (sp_emitter){.source = {evaluator, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid), fronts,

@@ -11,7 +11,7 @@ typedef struct {
 } sp_emitter;
 
 /* `fronts`: those of its drops, borrowed; NULL: it flies without drag. */
-sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle, const sp_fronts *fronts);
+sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle, const sp_wavefronts *fronts);
 /* Jet `index` of `jets`, of which each carries as much liquid. */
 sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets);
 /* The share of the arrival's patch that lies inside the spray. */

@@ -2,7 +2,7 @@
 #include "auto_settings.h"
 #include "clock.h"
 #include "movers.h"
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 #include "resolution.h"
 #include "rundown.h"
 #include "spray/wet/wet.h"
@@ -71,7 +71,7 @@ sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own)
 
 sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error)
 {
-    if (!setup || !sp_setup_is_whole(setup, error) || (layout && !sp_layout_is_whole(layout, error)))
+    if (!setup || !sp_setup_is_valid(setup, error) || (layout && !sp_layout_is_valid(layout, error)))
         return NULL;
     sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
     if (!evaluator)

@@ -2,7 +2,7 @@
 #include "nozzle_bodies.h"
 #include "nozzle/frame.h"
 #include "nozzle/rotation.h"
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 #include "reach.h"
 
 #include <sprayplan/tracks.h>
@@ -59,7 +59,7 @@ static void draw_figures(gap_share *shares, size_t count, sp_track_gaps *gaps)
 
 bool sp_find_track_gaps(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_track_gaps *gaps, sp_error *error)
 {
-    if (!evaluator || !nozzle || !sp_nozzle_is_whole(nozzle, error))
+    if (!evaluator || !nozzle || !sp_nozzle_is_valid(nozzle, error))
         return false;
     const sp_rotation *rotation = &nozzle->type->rotation;
     *gaps = (sp_track_gaps){.known = false};

@@ -9,7 +9,7 @@
 
 /* All arrivals of one pattern at one patch, `first` to `end`. */
 static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *first, const sp_arrival *end,
-                      sp_tally *tally)
+                      sp_combination *tally)
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
     sp_wetting wetting = {0, 1, 0};
@@ -33,10 +33,11 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
             sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
                            !alone && sp_emitter_holds(emitter, arrival->direction));
     }
-    sp_tally_add(tally, first->patch, counted, &wetting);
+    sp_combination_add(tally, first->patch, counted, &wetting);
 }
 
-void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count, sp_tally *tally)
+void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count,
+                     sp_combination *tally)
 {
     for (size_t i = 0, end; i < count; i = end) {
         for (end = i + 1; end < count && arrivals[end].patch == arrivals[i].patch;)
@@ -45,7 +46,7 @@ void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *a
     }
 }
 
-static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch, sp_tally *tally, sp_work *work,
+static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch, sp_combination *tally, sp_work *work,
                         sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
@@ -61,12 +62,12 @@ static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch,
     return true;
 }
 
-static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_tally *tally, sp_work *work,
+static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_combination *tally, sp_work *work,
                        sp_error *error)
 {
     sp_watch watch = sp_watch_start(evaluator, "patches", bodies->patterns->count * evaluator->patches.count);
     for (size_t b = 0; b < bodies->layout->count; b++) {
-        sp_tally_begin_nozzle(tally, bodies->layout, b);
+        sp_combination_begin_nozzle(tally, bodies->layout, b);
         for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
             sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);
@@ -74,7 +75,7 @@ static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, s
             if (flow > 0 && !lay_pattern(&emitter, flow, &watch, tally, work, error))
                 return false;
         }
-        sp_tally_end_nozzle(tally);
+        sp_combination_end_nozzle(tally);
     }
     return sp_watch_end(&watch, error);
 }
@@ -84,15 +85,15 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
     if (!evaluator || !layout)
         return NULL;
     sp_bodies bodies;
-    sp_tally tally = {0};
+    sp_combination tally = {0};
     sp_coverage *coverage =
         sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error)
             ? sp_coverage_create(evaluator, error)
             : NULL;
-    bool done = coverage && sp_tally_create(evaluator, &coverage->deposits, &tally, error) &&
+    bool done = coverage && sp_combination_create(evaluator, &coverage->deposits, &tally, error) &&
                 lay_bodies(evaluator, &bodies, &tally, &coverage->work, error) &&
                 sp_coverage_conclude(evaluator, &bodies, coverage, error);
-    sp_tally_free(&tally);
+    sp_combination_free(&tally);
     sp_bodies_free(&bodies);
     if (done)
         return coverage;

@@ -1,6 +1,6 @@
 #include "launch.h"
 
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 #include "spray/drag/chain.h"
 #include "spray/state/state.h"
 
@@ -13,12 +13,12 @@ struct sp_launch_table {
     const sp_evaluator *evaluator;
     double far; /* m */
     size_t count, capacity;
-    sp_fronts **fronts; /* [count], with drag */
+    sp_wavefronts **fronts; /* [count], with drag */
 };
 
 int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, sp_flight flights[2])
 {
-    return launch->fronts ? sp_fronts_flights(launch->fronts, from, to, flights)
+    return launch->fronts ? sp_wavefronts_flights(launch->fronts, from, to, flights)
                           : sp_flights(from, to, launch->speed, gravity, flights);
 }
 
@@ -26,11 +26,11 @@ bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp
                            const sp_flight *near, sp_flight *flight)
 {
     sp_flight flights[2];
-    if (launch->fronts && sp_fronts_flight_near(launch->fronts, from, to, near, flight))
+    if (launch->fronts && sp_wavefronts_flight_near(launch->fronts, from, to, near, flight))
         return true;
     if (!launch->fronts)
         return sp_flight_on_arc(from, to, launch->speed, gravity, arc, flight);
-    if (arc >= sp_fronts_flights(launch->fronts, from, to, flights))
+    if (arc >= sp_wavefronts_flights(launch->fronts, from, to, flights))
         return false;
     *flight = flights[arc];
     return true;
@@ -53,19 +53,19 @@ void sp_launch_table_destroy(sp_launch_table *table)
     if (!table)
         return;
     for (size_t i = 0; i < table->count; i++)
-        sp_fronts_destroy(table->fronts[i]);
+        sp_wavefronts_destroy(table->fronts[i]);
     free(table->fronts);
     free(table);
 }
 
 /* NULL where there are none yet, or nothing leaves. */
-static const sp_fronts *fronts_of(const sp_launch_table *table, const sp_nozzle *pattern)
+static const sp_wavefronts *fronts_of(const sp_launch_table *table, const sp_nozzle *pattern)
 {
     const sp_setup *setup = &table->evaluator->setup;
     double speed = sp_nozzle_speed(pattern, &setup->liquid);
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
     for (size_t i = 0; i < table->count; i++) {
-        const sp_fronts *own = table->fronts[i];
+        const sp_wavefronts *own = table->fronts[i];
         if (own->speed == speed && own->drag.stokes == drag.stokes && own->drag.form == drag.form &&
             own->drag.delay == drag.delay)
             return own;
@@ -91,7 +91,7 @@ static bool make_room(sp_launch_table *table, sp_error *error)
     if (table->count < table->capacity)
         return true;
     size_t capacity = table->capacity ? 2 * table->capacity : 8;
-    sp_fronts **fronts = realloc(table->fronts, capacity * sizeof(sp_fronts *));
+    sp_wavefronts **fronts = realloc(table->fronts, capacity * sizeof(sp_wavefronts *));
     if (!fronts)
         return sp_fail_memory(error);
     table->fronts = fronts;
@@ -112,7 +112,8 @@ static bool add_pattern(sp_launch_table *table, const sp_nozzle *pattern, sp_err
     if (!make_room(table, error))
         return false;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
-    sp_fronts *fronts = sp_fronts_create(&drag, speed, sp_gravity_for(setup, SP_TRAJECTORY_DRAG), table->far, error);
+    sp_wavefronts *fronts =
+        sp_wavefronts_create(&drag, speed, sp_gravity_for(setup, SP_TRAJECTORY_DRAG), table->far, error);
     if (fronts)
         table->fronts[table->count++] = fronts;
     return fronts;
@@ -120,7 +121,7 @@ static bool add_pattern(sp_launch_table *table, const sp_nozzle *pattern, sp_err
 
 bool sp_launch_table_add(sp_launch_table *table, const sp_nozzle *nozzle, sp_error *error)
 {
-    if (!table || !nozzle || !sp_nozzle_is_whole(nozzle, error))
+    if (!table || !nozzle || !sp_nozzle_is_valid(nozzle, error))
         return false;
     const sp_setup *setup = &table->evaluator->setup;
     size_t count = sp_nozzle_pattern_count(nozzle);

@@ -1,7 +1,7 @@
 #include "nozzle_bodies.h"
 
 #include "launch.h"
-#include "nozzle/whole.h"
+#include "nozzle/valid.h"
 
 #include <stdlib.h>
 
@@ -38,7 +38,7 @@ bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layou
                            sp_error *error)
 {
     *bodies = (sp_bodies){.layout = layout};
-    return sp_layout_is_whole(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
+    return sp_layout_is_valid(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
            take_apart(evaluator, jets, bodies, error) && drops_are_sound(evaluator, bodies->patterns, error);
 }
 

@@ -1,6 +1,6 @@
 #include "passing.h"
 
-#include "aside.h"
+#include "sure_miss.h"
 #include "movers.h"
 
 #define WIDEST 3.0 /* of a patch's length, from its point: it lies within */
@@ -15,7 +15,8 @@ static bool passes_aside(const sp_gathering *own, const sp_source *source, const
     sp_vec3 middle = sp_along(target->point, 0.5, sp_add(from, to));
     double radius = 0.5 * sp_distance(from, to) + WIDEST * target->length;
     double fringe = sp_spray_fringe(sp_breadth_most(source, middle, radius, fmax(target->length, own->step)));
-    return sp_spray_is_aside(source, own->aim->axis, own->aim->half_angle, own->aim->emitter, fringe, middle, radius);
+    return sp_spray_surely_misses(source, own->aim->axis, own->aim->half_angle, own->aim->emitter, fringe, middle,
+                                  radius);
 }
 
 /* A patch that moves, at the positions first to end: halves of the way that the spray misses are not looked at. */

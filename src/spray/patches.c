@@ -1,5 +1,5 @@
 /* Patches: the clean, wet part of each texel, on each side. */
-#include "middle.h"
+#include "judged_point.h"
 #include "spray/state/state.h"
 
 #include <assert.h>
@@ -14,7 +14,7 @@ typedef struct {
 
 /* A patch while its pieces are being visited. */
 typedef struct {
-    sp_middle middle;
+    sp_judged_point middle;
     double area;       /* m², as the atlas measured it */
     uint32_t triangle; /* of the fragment in hand */
 } patch_sum;
@@ -22,7 +22,7 @@ typedef struct {
 static void add_piece(void *user, const sp_vec3 *polygon, int corners, double area)
 {
     patch_sum *sum = user;
-    sp_middle_add(&sum->middle, polygon, corners);
+    sp_judged_point_add(&sum->middle, polygon, corners);
     sum->area += area;
 }
 
@@ -30,7 +30,7 @@ static void look_at_piece(void *user, const sp_vec3 *polygon, int corners, doubl
 {
     patch_sum *sum = user;
     (void)area;
-    sp_middle_look(&sum->middle, polygon, corners, sum->triangle);
+    sp_judged_point_look(&sum->middle, polygon, corners, sum->triangle);
 }
 
 #define PARTS 997 /* of a pixel: finer than triangles lie apart, far coarser than round-off */

@@ -1,8 +1,8 @@
 #include "ray_queue.h"
 
 #include "free_share.h"
-#include "near.h"
-#include "spray/drag/fronts.h"
+#include "near_patches.h"
+#include "spray/drag/wavefronts.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -134,7 +134,7 @@ static void gather_with_drag(sp_gathering *own, const sp_target *target)
     const sp_source *source = &own->source;
     sp_flight flights[2];
     double margin;
-    int count = sp_fronts_reach(source->fronts, source->position, target->point, flights, &margin);
+    int count = sp_wavefronts_reach(source->fronts, source->position, target->point, flights, &margin);
     if (sp_target_is_near_by(source, target, flights, count, margin))
         cut(own);
     else

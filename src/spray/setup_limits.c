@@ -1,5 +1,5 @@
 /* What a setup has to hold before there can be an evaluator of it. */
-#include "allowed.h"
+#include "valid_range.h"
 #include "spray/state/state.h"
 
 static const sp_owner of_setup = {"setup", ""};
@@ -76,7 +76,7 @@ static bool is_upright(sp_vec3 up)
     return up.x == 0 && ((up.y == 0 && up.z == 1) || (up.y == 1 && up.z == 0));
 }
 
-bool sp_setup_is_whole(const sp_setup *setup, sp_error *error)
+bool sp_setup_is_valid(const sp_setup *setup, sp_error *error)
 {
     const sp_criterion *criterion = &setup->criterion;
     const sp_fidelity *fidelity = &setup->fidelity;
@@ -113,7 +113,7 @@ bool sp_setup_is_whole(const sp_setup *setup, sp_error *error)
                        "film: found without %s; expected a cavity, which says on which side of a wall it "
                        "runs down, and gravity",
                        setup->gravity > 0 ? "a cavity" : "gravity");
-    return check_words(setup, error) && sp_run_is_sound(&setup->run, error) &&
+    return check_words(setup, error) && sp_run_is_valid(&setup->run, error) &&
            sp_is_listed(of_setup, "unfolded", setup->unfolded, setup->unfolded_count, error) &&
            check_caps(setup, error) && check_surfaces(setup, error) && check_sweep(setup, error) &&
            sp_geometry_is_resolved(setup, error);

@@ -3,7 +3,7 @@
 #include "trace/parabola/parabola_bvh.h"
 #include "trace/parabola/parabola_packet.h"
 
-#include "allowed.h"
+#include "valid_range.h"
 
 #include <omp.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "mesh/adjacent.h"
 #include "atlas/charts/coarsen.h"
 #include "atlas/charts/making.h"
-#include "atlas/charts/refine.h"
+#include "atlas/charts/prolong.h"
 #include "atlas/charts/renumber.h"
 
 #ifdef SPRAYPLAN_SANITIZE
@@ -336,7 +336,7 @@ static void refining_keeps_the_form(void **state)
         assert_true(sp_coarsen(&fine, mesh->triangle_count / 5, &coarse));
         sp_making rough = {.extent = INFINITY, .sheets = sheets_of(&coarse.mesh, coarse.twin)};
         assert_true(sp_make_all(&rough, NULL));
-        assert_true(sp_refine_sheets(&coarse, &rough.sheets, &fine));
+        assert_true(sp_prolong_sheets(&coarse, &rough.sheets, &fine));
         expect_sound_sheets(&fine);
         uint32_t at = 0;
         for (uint32_t s = 0; s < rough.sheets.count; s++) {

@@ -39,11 +39,11 @@ static drop fly(double diameter, drop at, sp_vec3 gravity, double time, int step
     return at;
 }
 
-static sp_fronts *fronts_of(double diameter, double speed, sp_vec3 gravity, double far)
+static sp_wavefronts *fronts_of(double diameter, double speed, sp_vec3 gravity, double far)
 {
     sp_error error = {0};
     sp_drag drag = sp_drag_of_drops(diameter, &water, &air);
-    sp_fronts *fronts = sp_fronts_create(&drag, speed, gravity, far, &error);
+    sp_wavefronts *fronts = sp_wavefronts_create(&drag, speed, gravity, far, &error);
     assert_string_equal(error.message, "");
     return fronts;
 }
@@ -68,7 +68,7 @@ static void terminal_speeds_are_as_measured(void **state)
 }
 
 /* What deviates most of a flight's pieces, and of its end, from the reference; shares of way and speed. */
-static void compare(double diameter, double speed, const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight,
+static void compare(double diameter, double speed, const sp_wavefronts *fronts, sp_vec3 from, const sp_flight *flight,
                     double *place, double *velocity)
 {
     sp_chain chain = sp_chain_of(fronts, from, flight);
@@ -104,11 +104,11 @@ static void flights_land(void **state)
                c = i % 9 ? cos(1.3 * i) : 1 - i % 2 * 2;
         double r = far * pow(10, -i % 5 * 0.5), s = sqrt(1 - c * c);
         sp_vec3 to = sp_along(from, r, sp_v(s * cos(a), s * sin(a), c));
-        static sp_fronts *fronts[4][2];
-        sp_fronts **own = &fronts[i % 4][i / 4 % 2];
+        static sp_wavefronts *fronts[4][2];
+        sp_wavefronts **own = &fronts[i % 4][i / 4 % 2];
         *own = *own ? *own : fronts_of(diameter, speed, down, far);
         sp_flight flights[2];
-        int count = sp_fronts_flights(*own, from, to, flights);
+        int count = sp_wavefronts_flights(*own, from, to, flights);
         counts[count]++;
         for (int k = 0; k < count; k++) {
             drop at = fly(diameter, (drop){from, sp_scale(flights[k].direction, speed)}, down, flights[k].time, 4000);
@@ -119,7 +119,7 @@ static void flights_land(void **state)
             compare(diameter, speed, *own, from, &flights[k], &place, &velocity);
         }
         if (i >= 472)
-            sp_fronts_destroy(*own);
+            sp_wavefronts_destroy(*own);
     }
     print_message("%d ends out of reach, %d with both arcs; missed by %.2g on low arcs (%d of them by less than 1e-9), "
                   "%.2g on high ones; chains off by %.2g, speeds by %.2g\n",
@@ -199,18 +199,18 @@ static void parabolas_and_lines_are_the_limits(void **state)
     const sp_drag drags[2] = {sp_drag_of_drops(1e-3, &water, &thin), sp_drag_of_drops(1e12, &water, &air)};
     for (int k = 0; k < 4; k++) {
         sp_error error = {0};
-        sp_fronts *fronts = sp_fronts_create(&drags[k / 2], 8, gravities[k % 2], 4, &error);
+        sp_wavefronts *fronts = sp_wavefronts_create(&drags[k / 2], 8, gravities[k % 2], 4, &error);
         assert_non_null(fronts);
         for (int i = 0; i < 200; i++) {
             double a = 2.1 * i, c = i % 10 ? cos(0.9 * i) : 1, s = sqrt(1 - c * c), r = 4 * pow(10, -i % 7);
             sp_vec3 to = sp_along(from, r, sp_v(s * cos(a), s * sin(a), c));
             sp_flight found[2], expected[2];
             int count = sp_flights(from, to, 8, gravities[k % 2], expected);
-            assert_int_equal(sp_fronts_flights(fronts, from, to, found), count);
+            assert_int_equal(sp_wavefronts_flights(fronts, from, to, found), count);
             for (int j = 0; j < count; j++)
                 assert_alike(&found[j], &expected[j], 1e-8);
         }
-        sp_fronts_destroy(fronts);
+        sp_wavefronts_destroy(fronts);
     }
 }
 
@@ -219,21 +219,21 @@ static void transfer_is_the_jacobian(void **state)
 {
     (void)state;
     const double diameter = 5e-4, speed = 12, h = 1e-4;
-    sp_fronts *fronts = fronts_of(diameter, speed, down, 3);
+    sp_wavefronts *fronts = fronts_of(diameter, speed, down, 3);
     int compared = 0;
     for (int i = 0; i < 60; i++) {
         double a = 2.1 * i, r = 0.3 + 0.02 * i;
         sp_vec3 to = sp_v(r * cos(a), r * sin(a), 0.6 * sin(5. * i));
         sp_flight flights[2], beside[2][2];
-        int count = sp_fronts_flights(fronts, sp_v(0, 0, 0), to, flights);
+        int count = sp_wavefronts_flights(fronts, sp_v(0, 0, 0), to, flights);
         for (int k = 0; k < count; k++) {
             sp_vec3 n = sp_unit(flights[k].velocity), x = sp_unit(sp_cross(n, sp_v(0.3, 0.5, -0.8)));
             sp_vec3 across[2] = {x, sp_cross(n, x)}, turn[2];
             for (int j = 0; j < 2; j++) {
                 for (int m = 0; m < 2; m++)
-                    assert_int_equal(
-                        sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, (m ? -h : h) * r, across[j]), beside[m]),
-                        count);
+                    assert_int_equal(sp_wavefronts_flights(fronts, sp_v(0, 0, 0),
+                                                           sp_along(to, (m ? -h : h) * r, across[j]), beside[m]),
+                                     count);
                 turn[j] = sp_scale(sp_sub(beside[0][k].direction, beside[1][k].direction), 0.5 / (h * r));
             }
             double transfer = sp_length(flights[k].velocity) / flights[k].spread;
@@ -244,7 +244,7 @@ static void transfer_is_the_jacobian(void **state)
         }
     }
     assert_true(compared > 60);
-    sp_fronts_destroy(fronts);
+    sp_wavefronts_destroy(fronts);
 }
 
 /* What a flight changes by, against neighbouring flights, and these found from it. */
@@ -254,20 +254,21 @@ static void neighbours_follow_from_a_flight(void **state)
     const double diameters[3] = {1e-4, 5e-4, 3e-3}, step = 1e-6;
     int compared = 0, found = 0;
     for (int d = 0; d < 3; d++) {
-        sp_fronts *fronts = fronts_of(diameters[d], 12, down, 3);
+        sp_wavefronts *fronts = fronts_of(diameters[d], 12, down, 3);
         for (int i = 0; i < 100; i++) {
             double a = 2.1 * i, b = 1.3 * i, r = d ? 0.2 + 0.02 * i : 0.1 + 0.003 * i;
             sp_vec3 to = sp_v(r * cos(a), r * sin(a), 0.6 * r * sin(5. * i));
             sp_vec3 move = sp_v(r * cos(b), r * sin(b), r * cos(0.7 * i));
             sp_flight flights[2], beside[2][2], moved[2], near;
-            int count = sp_fronts_flights(fronts, sp_v(0, 0, 0), to, flights);
-            int there = sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), moved);
+            int count = sp_wavefronts_flights(fronts, sp_v(0, 0, 0), to, flights);
+            int there = sp_wavefronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), moved);
             for (int m = 0; m < 2; m++)
                 assert_int_equal(
-                    sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, m ? -step : step, move), beside[m]), count);
+                    sp_wavefronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, m ? -step : step, move), beside[m]),
+                    count);
             for (int k = 0; k < count; k++) {
                 const sp_flight *ahead = &beside[0][k], *behind = &beside[1][k];
-                sp_flight_change change = sp_fronts_change(fronts, &flights[k], move);
+                sp_flight_change change = sp_wavefronts_change(fronts, &flights[k], move);
                 double by = 0.5 / step;
                 sp_vec3 turn = sp_scale(sp_sub(ahead->direction, behind->direction), by);
                 sp_vec3 velocity = sp_scale(sp_sub(ahead->velocity, behind->velocity), by);
@@ -281,13 +282,13 @@ static void neighbours_follow_from_a_flight(void **state)
                              sp_distance(velocity, change.velocity), spread - change.spread, spread);
                 compared++;
                 if (k >= there ||
-                    !sp_fronts_flight_near(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), &flights[k], &near))
+                    !sp_wavefronts_flight_near(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), &flights[k], &near))
                     continue;
                 assert_alike(&near, &moved[k], 1e-6);
                 found++;
             }
         }
-        sp_fronts_destroy(fronts);
+        sp_wavefronts_destroy(fronts);
     }
     assert_true(compared > 300 && found > 0.8 * compared);
 }
@@ -304,19 +305,19 @@ static void streams_fly_free_at_first(void **state)
     assert_true(fabs(way / (5 * pow(weber, 0.378) * diameter) - 1) < 1e-12);
     assert_true(way > 0.39 && way < 0.42);
     sp_error error = {0};
-    sp_fronts *fronts = sp_fronts_create(&drag, 19.4, down, 3, &error);
+    sp_wavefronts *fronts = sp_wavefronts_create(&drag, 19.4, down, 3, &error);
     sp_vec3 from = sp_v(0, 0, 0);
     for (int i = 1; i < 30; i++) {
         sp_vec3 to = sp_v(0.1 * i * 0.8, 0, 0.1 * i * 0.6);
         sp_flight flights[2], free[2];
-        assert_int_equal(sp_fronts_flights(fronts, from, to, flights), 2);
+        assert_int_equal(sp_wavefronts_flights(fronts, from, to, flights), 2);
         assert_int_equal(sp_flights(from, to, 19.4, down, free), 2);
         if (flights[0].time < drag.delay)
             assert_alike(&flights[0], &free[0], 1e-8);
         else
             assert_true(sp_length(flights[0].velocity) < sp_length(free[0].velocity));
     }
-    sp_fronts_destroy(fronts);
+    sp_wavefronts_destroy(fronts);
 }
 
 int main(void)

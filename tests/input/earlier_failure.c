@@ -124,7 +124,7 @@ static void evaluators_keep_it(void **state)
     KEEPS(sp_find_track_gaps, nothing, &untyped, &gaps, &error);
     KEEPS(sp_find_track_gaps, r->evaluator, nothing, &gaps, &error);
     KEEPS(sp_find_track_gaps, r->evaluator, &untyped, &gaps, &error);
-    KEEPS(sp_fronts_create, nothing, 10, down, 1, &error);
+    KEEPS(sp_wavefronts_create, nothing, 10, down, 1, &error);
 }
 
 static void evaluations_keep_it(void **state)
@@ -209,7 +209,7 @@ static void types_and_images_keep_it(void **state)
     const sp_exr_part part = {"page0", 1, 1, values};
     sp_speed_layer layers[SP_SPEEDS];
     size_t size;
-    KEEPS(sp_type_is_whole, nothing, &error);
+    KEEPS(sp_type_is_valid, nothing, &error);
     KEEPS(sp_patternation_create, nothing, 1, 1, 1, &error);
     KEEPS(sp_patternation_layers, nothing, values, 1, 1, 1, layers, &error);
     KEEPS(sp_patternation_layers, values, nothing, 1, 1, 1, layers, &error);

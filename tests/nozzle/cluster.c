@@ -165,17 +165,17 @@ static void what_is_no_cluster_is_refused(void **state)
     sp_member member = stream(sp_v(0, 0, 1), 1);
     sp_nozzle_type ball = cluster_of(&member, 1);
     sp_error error = {0};
-    assert_true(sp_type_is_whole(&ball, &error));
+    assert_true(sp_type_is_valid(&ball, &error));
     ball.member_count = 0;
-    assert_false(sp_type_is_whole(&ball, &error));
+    assert_false(sp_type_is_valid(&ball, &error));
     assert_string_equal(error.message, "type ball: a cluster, expected 1 to 1000 members");
     ball.member_count = 1;
     member.share = NAN;
     error = (sp_error){0};
-    assert_false(sp_type_is_whole(&ball, &error));
+    assert_false(sp_type_is_valid(&ball, &error));
     member.share = 1;
     member.type.pattern = SP_PATTERN_CLUSTER;
-    assert_false(sp_type_is_whole(&ball, &error));
+    assert_false(sp_type_is_valid(&ball, &error));
     assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
 }
 

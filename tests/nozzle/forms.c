@@ -170,7 +170,7 @@ static void jets_that_turn_are_cones_fans_or_streams(void **state)
     (void)state;
     sp_error error = {0};
     sp_nozzle_type turning = {.name = "t", .pattern = SP_PATTERN_ROTATING, .rotation = {.jet = SP_PATTERN_MEASURED}};
-    assert_false(sp_type_is_whole(&turning, &error));
+    assert_false(sp_type_is_valid(&turning, &error));
     assert_string_equal(error.message, "type t: rotating, expected a cone, fan or stream as jet");
     assert_true(sp_pattern_fits_hub(SP_PATTERN_HOLLOW_CONE) && !sp_pattern_fits_hub(SP_PATTERN_FLAT_FAN));
     assert_true(sp_type_jets(&types[7]) == 1 && !sp_type_has_tracks(&types[7]) && !sp_type_leaves_as_stream(&types[7]));

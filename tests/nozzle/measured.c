@@ -359,7 +359,7 @@ static void what_is_no_pattern_is_refused(void **state)
     refuse(none, 1, 2, 1, "no value above 0 found, expected some liquid");
     sp_nozzle_type type = {.name = "m", .pattern = SP_PATTERN_MEASURED};
     sp_error error = {0};
-    assert_false(sp_type_is_whole(&type, &error));
+    assert_false(sp_type_is_valid(&type, &error));
     assert_string_equal(error.message, "type m: measured, expected a patternation");
     sp_patternation_destroy(NULL);
 }

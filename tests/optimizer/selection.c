@@ -1,7 +1,7 @@
 /* Searches in a coverage matrix of poses against every layout that can be made of them. */
 #include "prepared.h"
 
-#include "search/fill.h"
+#include "search/front_gaps.h"
 #include "search/partial_enumeration.h"
 #include "search/tuned.h"
 

@@ -2,7 +2,7 @@
 #include "floor.h"
 #include "prepared.h"
 
-#include "refine/anneal.h"
+#include "refine/continuation.h"
 #include "refine/smooth_objective.h"
 
 #define HEIGHT 2.0
@@ -74,7 +74,7 @@ static void annealing_ends_there(void **state)
     sp_error error = {0};
     bench_open(&b);
     double before = b.partial.covered;
-    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.ready.deadline, &b.partial, &error));
+    assert_true(sp_continuation(&b.sights, 0, SP_WIDTHS, INFINITY, &b.ready.deadline, &b.partial, &error));
     print_message("at %g m, %g m2 for %g\n", b.partial.items[0].nozzle.position.x, b.partial.covered, before);
     assert_true(fabs(b.partial.items[0].nozzle.position.x) < 0.01);
     assert_true(b.partial.covered > before);

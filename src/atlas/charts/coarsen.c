@@ -3,7 +3,7 @@
  * cheaper vertices go, none of them beside another; so all costs of a pass hold, and its order does not matter much. */
 #include "atlas/charts/coarsen.h"
 
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <math.h>
 #include <stdlib.h>

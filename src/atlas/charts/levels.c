@@ -5,7 +5,7 @@
 
 #include "atlas/charts/coarsen.h"
 #include "atlas/charts/merge.h"
-#include "atlas/charts/refine.h"
+#include "atlas/charts/prolong.h"
 #include "atlas/charts/settle.h"
 #include "atlas/charts/split.h"
 
@@ -67,7 +67,7 @@ static bool carry_over(levels *l)
         memcpy(owner_before, fine->owner, bytes);
     fine->items = NULL;
     fine->count = fine->capacity = 0;
-    bool good = owner_before && sp_refine_sheets(&l->coarse, &l->rough->sheets, fine);
+    bool good = owner_before && sp_prolong_sheets(&l->coarse, &l->rough->sheets, fine);
     l->fits = good ? calloc(fine->count + 1, 1) : NULL;
     good = good && l->fits;
     if (good && before)

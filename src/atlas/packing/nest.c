@@ -4,7 +4,7 @@
 #include "atlas/packing/nest.h"
 
 #include "mesh/bits.h"
-#include "mesh/order.h"
+#include "mesh/key_sort.h"
 
 #include <math.h>
 #include <stdlib.h>

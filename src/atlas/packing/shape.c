@@ -2,7 +2,7 @@
 
 #include "mesh/bits.h"
 #include "atlas/texels/raster.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>

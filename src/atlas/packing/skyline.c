@@ -2,7 +2,7 @@
  * Maillot, "Least squares conformal maps" (2002), on as many pages as it takes. */
 #include "atlas/packing/skyline.h"
 
-#include "mesh/order.h"
+#include "mesh/key_sort.h"
 
 #include <assert.h>
 #include <math.h>

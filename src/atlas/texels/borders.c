@@ -1,6 +1,6 @@
 #include "atlas/texels/borders.h"
 #include "mesh/cracks.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 #include "atlas/texels/texels.h"
 
 #include <math.h>

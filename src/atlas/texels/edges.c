@@ -1,6 +1,6 @@
 /* Edges of the mesh on the pages. */
 #include "atlas/texels/texels.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Which texels touch: inside a triangle, and across the edges of the mesh whether or not the atlas is cut there. Two
  * lips of a cut that merely lie side by side on the page do not touch. */
-#include "mesh/order.h"
+#include "mesh/key_sort.h"
 #include "atlas/texels/texels.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* How a triangle's area on the surface is shared among its texels. */
 #include "atlas/texels/texels.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * what lies to the right of it there, and what it climbs to all further pixels of the row (S. Barrett, "How the
  * stb_truetype anti-aliased software rasterizer v2 works", 2015). */
 #include "atlas/texels/raster.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>

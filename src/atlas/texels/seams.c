@@ -1,5 +1,5 @@
 /* What touches across cuts: both sides of an edge are followed at once, from one border of pixels to the next. */
-#include "mesh/order.h"
+#include "mesh/key_sort.h"
 #include "atlas/texels/texels.h"
 
 #include <assert.h>

@@ -3,9 +3,9 @@
  * pixel, which says what is one patch of the surface however the chart was cut. */
 #include "mesh/adjacent.h"
 #include "mesh/bits.h"
-#include "mesh/order.h"
+#include "mesh/key_sort.h"
 #include "atlas/texels/texels.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Which texel holds what, and where it lies. */
 #include "atlas/texels/texels.h"
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <assert.h>
 #include <math.h>

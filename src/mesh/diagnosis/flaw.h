@@ -21,7 +21,7 @@ static inline void sp_flaw_add(sp_flaw *flaw, sp_vec3 place)
 size_t sp_crack_corners(const sp_mesh *mesh, const sp_half_edges *edges, double crack, double *radius, uint32_t *list);
 
 /* Where a triangle's middle is, m. */
-static inline sp_vec3 sp_middle_of(const sp_mesh *mesh, const uint32_t corners[3])
+static inline sp_vec3 sp_judged_point_of(const sp_mesh *mesh, const uint32_t corners[3])
 {
     sp_vec3 sum = sp_add(sp_add(mesh->vertices[corners[0]], mesh->vertices[corners[1]]), mesh->vertices[corners[2]]);
     return sp_scale(sum, 1.0 / 3);

@@ -115,12 +115,12 @@ static bool find_inside_out(const sp_mesh *mesh, const uint32_t *shell, const bo
     count = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (shell[t] == t && closed[t] && sizes[t].volume < 0)
-            hollows[count++] = (hollow){t, turned(sp_middle_of(mesh, mesh->triangles[sizes[t].widest])), 0};
+            hollows[count++] = (hollow){t, turned(sp_judged_point_of(mesh, mesh->triangles[sizes[t].widest])), 0};
     qsort(hollows, count, sizeof *hollows, by_x);
     flaw->more = count && !wind(mesh, shell, closed, hollows, count);
     for (size_t i = 0; !flaw->more && i < count; i++)
         if (hollows[i].winding <= 0)
-            sp_flaw_add(flaw, sp_middle_of(mesh, mesh->triangles[sizes[hollows[i].shell].widest]));
+            sp_flaw_add(flaw, sp_judged_point_of(mesh, mesh->triangles[sizes[hollows[i].shell].widest]));
     free(hollows);
     return true;
 }
@@ -134,7 +134,7 @@ bool sp_diagnose_shells(const sp_mesh *mesh, const uint32_t *shell, const bool *
         return sp_fail_memory(error);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (shell[t] == t && !closed[t] && sizes[t].area < BIT * diagnosis->area)
-            sp_flaw_add(&diagnosis->bits, sp_middle_of(mesh, mesh->triangles[sizes[t].widest]));
+            sp_flaw_add(&diagnosis->bits, sp_judged_point_of(mesh, mesh->triangles[sizes[t].widest]));
     bool good = find_inside_out(mesh, shell, closed, sizes, &diagnosis->inside_out, error);
     free(sizes);
     return good;

@@ -5,7 +5,7 @@
  * no worse than they were, or better. So copies that hang together are taken out or left as one. */
 #include "mesh/disjoint_sets.h"
 #include "mesh/repair/mesh_edit.h"
-#include "mesh/twins.h"
+#include "mesh/duplicates.h"
 
 #include <stdlib.h>
 
@@ -57,7 +57,7 @@ static bool is_other_side(const copies *c, size_t first, size_t i)
 static size_t group_end(const sp_mesh *mesh, const uint32_t *order, size_t from)
 {
     size_t to = from + 1;
-    while (to < mesh->triangle_count && sp_are_twins(mesh, order[from], order[to]))
+    while (to < mesh->triangle_count && sp_are_duplicates(mesh, order[from], order[to]))
         to++;
     return to;
 }
@@ -199,7 +199,7 @@ bool sp_take_out_copies(sp_mesh_edit *edit, bool careful, size_t *done, sp_error
     copies c = {edit,        malloc(room * sizeof *c.order), malloc(room), malloc(room * sizeof *c.set), malloc(room),
                 malloc(room)};
     bool good = (c.order && c.chosen && c.set && c.worse && c.better) || sp_fail_memory(error);
-    good = good && sp_sort_twins(edit->mesh, c.order, error);
+    good = good && sp_sort_duplicates(edit->mesh, c.order, error);
     *done = 0;
     for (choice which = SAME_SIDE; good && !*done && which < CHOICES; which++)
         if (choose(&c, which))

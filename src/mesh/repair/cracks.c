@@ -2,7 +2,7 @@
 #include "mesh/box_pairs.h"
 #include "mesh/diagnosis/flaw.h"
 #include "mesh/repair/mesh_edit.h"
-#include "mesh/twins.h"
+#include "mesh/duplicates.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -154,10 +154,11 @@ static bool edges_hold(joining *j, const sp_mesh *joined, const sp_half_edges *e
 static bool triangles_hold(joining *j, const sp_mesh *joined, uint32_t *order, bool *hold, sp_error *error)
 {
     *hold = true;
-    if (!sp_sort_twins(joined, order, error))
+    if (!sp_sort_duplicates(joined, order, error))
         return false;
     for (size_t i = 1; i < joined->triangle_count; i++)
-        if (sp_are_twins(joined, order[i - 1], order[i]) && !sp_are_twins(j->edit->mesh, order[i - 1], order[i])) {
+        if (sp_are_duplicates(joined, order[i - 1], order[i]) &&
+            !sp_are_duplicates(j->edit->mesh, order[i - 1], order[i])) {
             give_up_triangle(j, order[i - 1]);
             give_up_triangle(j, order[i]);
             *hold = false;

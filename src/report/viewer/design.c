@@ -47,7 +47,7 @@ static void free_room(teller *t)
 
 static bool tell(teller *t, const uint8_t *values)
 {
-    return sp_patches_tell(t->neighbours, values, &t->guess, t->off, t->coder);
+    return sp_patches_encode(t->neighbours, values, &t->guess, t->off, t->coder);
 }
 
 /* By neighbours alone. */

@@ -3,7 +3,7 @@
 #define REPORT_VIEWER_DESIGN_H
 
 #include "packed.h"
-#include "patches.h"
+#include "patch_code.h"
 #include "quantities.h"
 
 #include <jansson.h>

@@ -2,7 +2,7 @@
 #include "exact.h"
 
 #include "packed.h"
-#include "places.h"
+#include "vertex_code.h"
 #include "spray/restore.h"
 #include "unfolded.h"
 
@@ -82,7 +82,7 @@ static void tell_nodes(const sp_wet_arrays *wet, place first, wet_models *models
 }
 
 /* Triangle by triangle: its sides, and how it is cut. */
-static bool tell_wet(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_wet_arrays *wet,
+static bool tell_wet(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder, sp_wet_arrays *wet,
                      sp_error *error)
 {
     if (!sp_evaluator_tell_wet(evaluator, wet, error))
@@ -108,7 +108,7 @@ static int ascending(const void *a, const void *b)
 }
 
 /* Which triangles are drawn, by their told numbers, ascending in each range. */
-static bool tell_drawn(const sp_drawn_surface *surface, const sp_walk *walk, sp_coder *coder)
+static bool tell_drawn(const sp_drawn_surface *surface, const sp_triangle_order *walk, sp_coder *coder)
 {
     uint32_t *number = malloc((walk->count + 1) * sizeof *number);
     uint32_t *drawn = malloc((surface->triangle_count + 1) * sizeof *drawn);
@@ -125,11 +125,12 @@ static bool tell_drawn(const sp_drawn_surface *surface, const sp_walk *walk, sp_
     return done;
 }
 
-static bool tell_surface(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_places_told *told)
+static bool tell_surface(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder,
+                         sp_vertices_encoded *told)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    return sp_places_tell(mesh, walk, coder, told) && tell_words(mesh->part, walk->triangle, walk->count, coder) &&
+    return sp_vertices_encode(mesh, walk, coder, told) && tell_words(mesh->part, walk->triangle, walk->count, coder) &&
            tell_words(atlas->chart_page, NULL, atlas->chart_count, coder) &&
            tell_doubles(atlas->chart_texel, atlas->chart_count, coder) && sp_unfolded_tell(evaluator, walk, coder);
 }
@@ -139,11 +140,11 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    sp_walk walk;
-    sp_places_told told;
+    sp_triangle_order walk;
+    sp_vertices_encoded told;
     sp_wet_arrays wet = {0};
     json_t *about = NULL;
-    if (!sp_walk_create(&walk, mesh, atlas, coder) || !tell_surface(evaluator, &walk, coder, &told) ||
+    if (!sp_triangle_order_create(&walk, mesh, atlas, coder) || !tell_surface(evaluator, &walk, coder, &told) ||
         !tell_drawn(surface, &walk, coder))
         sp_fail_memory(error);
     else if (tell_wet(evaluator, &walk, coder, &wet, error))
@@ -153,6 +154,6 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
                           (json_int_t)atlas->chart_count, "nodes", (json_int_t)wet.node_count, "cuts",
                           (json_int_t)wet.cut_count);
     sp_wet_arrays_free(&wet);
-    sp_walk_free(&walk);
+    sp_triangle_order_free(&walk);
     return about;
 }

@@ -16,12 +16,13 @@
 
 /* The last of each puts together what is in those before it. */
 EMBED("sp_viewer_script",
-      VIEWER("geometry.js") VIEWER("scrolling.js") VIEWER("coder.js") VIEWER("walk.js") VIEWER("places.js")
-          VIEWER("unfolded.js") VIEWER("exact.js") VIEWER("patches.js") VIEWER("surface.js") VIEWER("sprays.js")
-              VIEWER("charts.js") VIEWER("data.js") VIEWER("widgets.js") VIEWER("scales.js") VIEWER("colours.js")
-                  VIEWER("camera.js") VIEWER("shaders.js") VIEWER("upload.js") VIEWER("drawing.js") VIEWER("pick.js")
-                      VIEWER("labels.js") VIEWER("axes.js") VIEWER("choosing.js") VIEWER("bar.js") VIEWER("controls.js")
-                          VIEWER("layers.js") VIEWER("pointer.js") VIEWER("keyboard.js") VIEWER("viewer.js"));
+      VIEWER("geometry.js") VIEWER("scrolling.js") VIEWER("coder.js") VIEWER("triangle_order.js")
+          VIEWER("vertex_code.js") VIEWER("unfolded.js") VIEWER("exact.js") VIEWER("patch_code.js") VIEWER("surface.js")
+              VIEWER("sprays.js") VIEWER("charts.js") VIEWER("data.js") VIEWER("widgets.js") VIEWER("scales.js")
+                  VIEWER("colours.js") VIEWER("camera.js") VIEWER("shaders.js") VIEWER("upload.js") VIEWER("drawing.js")
+                      VIEWER("pick.js") VIEWER("labels.js") VIEWER("axes.js") VIEWER("choosing.js") VIEWER("bar.js")
+                          VIEWER("controls.js") VIEWER("layers.js") VIEWER("pointer.js") VIEWER("keyboard.js")
+                              VIEWER("viewer.js"));
 EMBED("sp_live_script",
       LIVE("evaluator.js") LIVE("layout.js") LIVE("telling.js") LIVE("evaluating.js") LIVE("scene.js")
           LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("handles.js") LIVE("live.js"));

@@ -21,7 +21,7 @@ typedef struct {
 typedef struct {
     const sp_mesh *mesh;
     const sp_atlas *atlas;
-    const sp_walk *walk;
+    const sp_triangle_order *walk;
     sp_coder *coder;
     models *models;
     double *parts;      /* [charts], of a pixel, that corners are told in; 0: bits */
@@ -95,7 +95,7 @@ static void tell(const teller *t, uint32_t triangle, uint32_t i)
 
 static void tell_all(const teller *t)
 {
-    const sp_walk *walk = t->walk;
+    const sp_triangle_order *walk = t->walk;
     for (uint32_t i = 0; i < walk->count; i++) {
         uint32_t gate = walk->gate[i], far = walk->far[i];
         if (gate != SP_NONE) {
@@ -129,7 +129,7 @@ static void find_parts(const sp_evaluator *evaluator, double *parts)
     }
 }
 
-bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder)
+bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     teller t = {.mesh = sp_evaluator_setup(evaluator)->mesh,

@@ -3,7 +3,7 @@
 #ifndef REPORT_VIEWER_UNFOLDED_H
 #define REPORT_VIEWER_UNFOLDED_H
 
-#include "walk.h"
+#include "triangle_order.h"
 
 #include <sprayplan/evaluator.h>
 
@@ -11,6 +11,6 @@
 #define SP_UNFOLDED_PARTS 16
 
 /* False where memory runs out. */
-bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder);
+bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder);
 
 #endif

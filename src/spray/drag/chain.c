@@ -9,7 +9,7 @@
 #define LEGS_MOST 100000
 #define OVERLAP 1e-9 /* of a piece, that it goes on beyond its end: nothing slips between two */
 
-sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight)
+sp_chain sp_chain_of(const sp_wavefronts *fronts, sp_vec3 from, const sp_flight *flight)
 {
     double sine = sp_dot(flight->direction, fronts->up);
     sp_vec3 level = sp_along(flight->direction, -sine, fronts->up);
@@ -21,11 +21,11 @@ sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *fli
                       .cosine = cosine,
                       .time = flight->time,
                       .at = from};
-    sp_front_polynomials(fronts, atan2(sine, cosine), chain.polynomials);
+    sp_wavefront_polynomials(fronts, atan2(sine, cosine), chain.polynomials);
     return chain;
 }
 
-static sp_vec3 place_of(const sp_chain *chain, sp_front_place at)
+static sp_vec3 place_of(const sp_chain *chain, sp_wavefront_place at)
 {
     return sp_along(sp_along(chain->from, at.q * chain->cosine, chain->level), at.q * chain->sine + at.d,
                     chain->fronts->up);
@@ -33,12 +33,12 @@ static sp_vec3 place_of(const sp_chain *chain, sp_front_place at)
 
 static sp_vec3 place_at(const sp_chain *chain, double time)
 {
-    return place_of(chain, sp_front_place_between(chain->fronts, time, chain->polynomials));
+    return place_of(chain, sp_wavefront_place_between(chain->fronts, time, chain->polynomials));
 }
 
 bool sp_chain_next(sp_chain *chain, sp_arc_piece *piece)
 {
-    const sp_fronts *fronts = chain->fronts;
+    const sp_wavefronts *fronts = chain->fronts;
     const double *joints = fronts->joints;
     size_t i = chain->next;
     if (i == fronts->joint_count || joints[i] >= chain->time)

@@ -2,7 +2,7 @@
 #ifndef SPRAY_DRAG_CHAIN_H
 #define SPRAY_DRAG_CHAIN_H
 
-#include "fronts.h"
+#include "wavefronts.h"
 
 typedef struct {
     sp_ray ray;           /* from its start to its end, by its own clock */
@@ -13,7 +13,7 @@ typedef struct {
 
 /* A flight that was found on the fronts, while it is gone along. */
 typedef struct {
-    const sp_fronts *fronts;
+    const sp_wavefronts *fronts;
     sp_vec3 from, level; /* m; unit, or 0 straight up and down */
     double sine, cosine;
     double polynomials[SP_FRONT_ORDER]; /* at its elevation */
@@ -22,7 +22,7 @@ typedef struct {
     sp_vec3 at;                         /* m, where the next piece begins */
 } sp_chain;
 
-sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight);
+sp_chain sp_chain_of(const sp_wavefronts *fronts, sp_vec3 from, const sp_flight *flight);
 /* The next piece; false behind the last. */
 bool sp_chain_next(sp_chain *chain, sp_arc_piece *piece);
 

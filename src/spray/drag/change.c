@@ -1,7 +1,7 @@
 /* Flights near one that is known: by how much it changes as its end moves, and the one to a place near by. The front
  * that it arrives on tells by how much its elevation and its time change, and what lies a little before and behind it
  * on the same way how all else does with these. */
-#include "fronts.h"
+#include "wavefronts.h"
 
 #define STEP 1e-4  /* rad, and share of the time, that is looked before and behind */
 #define ROUNDS 8   /* of Newton's method */
@@ -17,7 +17,7 @@ typedef struct {
     double elevation;         /* rad */
 } plane;
 
-static plane plane_of(const sp_fronts *fronts, sp_vec3 level, double sine)
+static plane plane_of(const sp_wavefronts *fronts, sp_vec3 level, double sine)
 {
     sp_vec3 up = fronts->up, other = fabs(up.x) < 0.6 ? sp_v(1, 0, 0) : sp_v(0, 1, 0);
     double cosine = sp_length(level);
@@ -34,9 +34,9 @@ typedef struct {
     double area;        /* m²/s, of both, signed */
 } arrival;
 
-static arrival arrival_at(const sp_fronts *fronts, double elevation, double time)
+static arrival arrival_at(const sp_wavefronts *fronts, double elevation, double time)
 {
-    sp_drop_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
+    sp_drop_wavefront front = sp_wavefront_between(fronts, sp_wavefront_moment_before(fronts, time), time, elevation);
     double sine = sin(elevation), cosine = cos(elevation);
     arrival own = {
         .q = front.q,
@@ -59,7 +59,7 @@ static turn turn_by(const arrival *at, double ahead, double up)
                   (at->along[0] * up - at->along[1] * ahead) / at->area};
 }
 
-sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flight, sp_vec3 move)
+sp_flight_change sp_wavefronts_change(const sp_wavefronts *fronts, const sp_flight *flight, sp_vec3 move)
 {
     double sine = sp_dot(flight->direction, fronts->up), cosine;
     plane plane = plane_of(fronts, sp_along(flight->direction, -sine, fronts->up), sine);
@@ -85,7 +85,8 @@ static bool is_clear(const arrival *at)
     return fabs(at->area) > STEEP * hypot(at->along[0], at->along[1]) * hypot(at->velocity[0], at->velocity[1]);
 }
 
-bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near, sp_flight *flight)
+bool sp_wavefronts_flight_near(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near,
+                               sp_flight *flight)
 {
     sp_vec3 way = sp_sub(to, from);
     double up = sp_dot(way, fronts->up), distance = sp_length(way);

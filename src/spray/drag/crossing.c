@@ -4,7 +4,7 @@
  * there, and by `outside` beyond it: P = (q + outside) e + d (0, 1). As time goes by `outside` falls to a least value
  * and rises again, and flights arrive where it is 0. With w the derivative of P by θ at a given `outside`, n across it
  * and v the velocity of what arrives, its derivative by time is -n·v / n·e, and by P, n / n·e. */
-#include "fronts.h"
+#include "wavefronts.h"
 
 #define ROUNDS 60
 #define TURNS 12
@@ -17,13 +17,13 @@
 
 /* An end in the upright plane through the start. */
 typedef struct {
-    const sp_fronts *fronts;
+    const sp_wavefronts *fronts;
     double forward, up;
 } end;
 
 /* The front as an end sees it. */
 typedef struct {
-    sp_drop_front front;
+    sp_drop_wavefront front;
     double elevation, sine, cosine; /* that lead there, rad */
     double outside;                 /* m */
     double approach;                /* its derivative by time, m/s */
@@ -38,17 +38,17 @@ typedef struct {
     bool roughly;
 } glance;
 
-static sp_drop_front front_of(const sp_fronts *fronts, const glance *at, double elevation)
+static sp_drop_wavefront front_of(const sp_wavefronts *fronts, const glance *at, double elevation)
 {
-    return at->roughly ? sp_front_at_moment(fronts, at->i, fronts->rough[at->i], elevation)
-                       : sp_front_between(fronts, at->i, at->time, elevation);
+    return at->roughly ? sp_wavefront_at_moment(fronts, at->i, fronts->rough[at->i], elevation)
+                       : sp_wavefront_between(fronts, at->i, at->time, elevation);
 }
 
 /* The elevation that leads to the end, by Newton, and the front there. */
 static void face(const end *end, const glance *at, view *view)
 {
     double linear = at->roughly ? ROUGH : LINEAR;
-    sp_drop_front *front = &view->front;
+    sp_drop_wavefront *front = &view->front;
     for (int round = 0; round < TURNS; round++) {
         *front = front_of(end->fronts, at, view->elevation);
         double rise = end->up - front->d,
@@ -69,7 +69,7 @@ static view view_by(const end *end, const glance *at, double elevation)
 {
     view view = {.elevation = elevation};
     face(end, at, &view);
-    const sp_drop_front *front = &view.front;
+    const sp_drop_wavefront *front = &view.front;
     double rise = end->up - front->d, way = hypot(end->forward, rise);
     view.outside = way - front->q;
     view.cosine = way > 0 ? end->forward / way : cos(view.elevation);
@@ -111,7 +111,7 @@ static span whole(const end *end)
 /* The first moment at which the front is about as wide as the end is far: low flights arrive near it. */
 static size_t first_guess(const end *end)
 {
-    const sp_fronts *fronts = end->fronts;
+    const sp_wavefronts *fronts = end->fronts;
     double way = hypot(end->forward, end->up);
     size_t low = 0, high = fronts->count - 1;
     while (high - low > 1) {
@@ -268,7 +268,7 @@ static passage pass_between(const end *end, const span *inner)
 /* With gravity what is reached is left again; without it, it is reached where it is in the end. */
 static passage passage_at(const end *end)
 {
-    const sp_fronts *fronts = end->fronts;
+    const sp_wavefronts *fronts = end->fronts;
     span inner = whole(end);
     bool found = find_inside(end, &inner), falls = sp_length(fronts->gravity) > 0;
     if (!found && !falls) {
@@ -297,7 +297,7 @@ typedef struct {
     sp_vec3 forward; /* unit; any that is level straight up and down */
 } plane;
 
-static plane plane_to(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to)
+static plane plane_to(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to)
 {
     sp_vec3 way = sp_sub(to, from), level = sp_sub(way, sp_scale(fronts->up, sp_dot(way, fronts->up)));
     sp_vec3 other = fabs(fronts->up.x) < 0.6 ? sp_v(1, 0, 0) : sp_v(0, 1, 0);
@@ -313,7 +313,7 @@ static sp_vec3 outwards(const plane *plane, double forward, double up)
 
 static sp_flight flight_of(const plane *plane, const view *view, double time)
 {
-    const sp_drop_front *front = &view->front;
+    const sp_drop_wavefront *front = &view->front;
     return (sp_flight){.direction = sp_unit(outwards(plane, view->cosine, view->sine)),
                        .velocity =
                            outwards(plane, front->q_time * view->cosine, front->q_time * view->sine + front->d_time),
@@ -322,7 +322,7 @@ static sp_flight flight_of(const plane *plane, const view *view, double time)
                        .lever = front->q};
 }
 
-int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin)
+int sp_wavefronts_reach(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin)
 {
     plane plane = plane_to(fronts, from, to);
     *margin = 0;
@@ -344,13 +344,13 @@ int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight
     return count + (flights[count].spread > 0);
 }
 
-int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2])
+int sp_wavefronts_flights(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2])
 {
     double margin;
-    return sp_fronts_reach(fronts, from, to, flights, &margin);
+    return sp_wavefronts_reach(fronts, from, to, flights, &margin);
 }
 
-bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front_limit *limit)
+bool sp_wavefronts_limit(const sp_wavefronts *fronts, sp_vec3 from, sp_vec3 to, sp_wavefront_limit *limit)
 {
     plane plane = plane_to(fronts, from, to);
     const end *end = &plane.end;
@@ -367,7 +367,7 @@ bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front
     double later = view_of(end, span.low, time + step, span.elevation).approach;
     double sooner = view_of(end, span.low, time - step, span.elevation).approach;
     double facing = view.across.x * view.cosine + view.across.z * view.sine;
-    *limit = (sp_front_limit){
+    *limit = (sp_wavefront_limit){
         .margin = -view.outside,
         .slope = sp_scale(outwards(&plane, view.across.x, view.across.z), -1 / facing),
         .lever = view.front.q,

@@ -42,7 +42,7 @@ sp_trajectory sp_trajectory_of(const sp_evaluator *evaluator, sp_trajectory own)
 /* What pulls at it, m/s². */
 sp_vec3 sp_acceleration_at(const sp_evaluator *evaluator, sp_trajectory own);
 /* setup_limits.c: false, with the error set, where a setup is not as <sprayplan/setup.h> says. */
-bool sp_setup_is_whole(const sp_setup *setup, sp_error *error);
+bool sp_setup_is_valid(const sp_setup *setup, sp_error *error);
 /* Whether air and liquid tell how drops are held back. */
 bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */

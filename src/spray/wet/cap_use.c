@@ -1,5 +1,5 @@
 /* What caps are good for: one that was mistyped shuts nothing, and says so nowhere else. */
-#include "spray/wet/opening_reach.h"
+#include "spray/wet/opening_size.h"
 #include "spray/wet/wet.h"
 
 #include <stdlib.h>

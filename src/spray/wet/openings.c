@@ -4,7 +4,7 @@
  * are taken first, the best seen before others: lines that pass the same plane in the same clear stretch of it use the
  * same opening, however far they pass from its place.
  */
-#include "spray/wet/opening_reach.h"
+#include "spray/wet/opening_size.h"
 #include "spray/wet/opening_rim.h"
 
 #include <stdlib.h>
@@ -140,7 +140,7 @@ static size_t gather(const sp_flood *flood, seen_opening *known, size_t count, c
     }
     known[count] = *found;
     known[count].reached =
-        found->shown > 0 && sp_opening_reach_find(flood, passing(&found->opening, &found->line), &known[count].opening);
+        found->shown > 0 && sp_opening_size_find(flood, passing(&found->opening, &found->line), &known[count].opening);
     return count + 1;
 }
 

@@ -2,7 +2,7 @@
 #ifndef SPRAYPLAN_TRACE_SEARCH_H
 #define SPRAYPLAN_TRACE_SEARCH_H
 
-#include "mesh/lesser.h"
+#include "mesh/min_max.h"
 
 #include <sprayplan/trace.h>
 

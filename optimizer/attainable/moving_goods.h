@@ -1,0 +1,14 @@
+/* Why goods that move are not attained. */
+#ifndef OPTIMIZER_MOVING_GOODS_H
+#define OPTIMIZER_MOVING_GOODS_H
+
+#include "scoring/partial.h"
+#include "deadline/deadline.h"
+
+/* Tells of every patch of `fine` that is not attained how near a flight from any mounting point brings it at any time
+ * of the pass, on the search's patches, within what the mounts let nozzles reach. Ends early, the rest unknown, where
+ * the run is cancelled. */
+bool sp_moving_goods_reasons(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline,
+                             sp_reason *reasons, sp_error *error);
+
+#endif

@@ -1,0 +1,26 @@
+/* How what nozzles bring to a patch comes together: all adds up, or one nozzle alone must meet the criterion. */
+#ifndef SPRAY_COMBINATION_H
+#define SPRAY_COMBINATION_H
+
+#include "spray/state/state.h"
+
+typedef struct {
+    const sp_evaluator *evaluator;
+    sp_deposits *deposits;
+    bool repeats;           /* the nozzle in hand repeats one before it, whose edges count */
+    double *counted, *even; /* [patches], m³/s per m²: of all nozzles so far, or where one alone must do, of the one in
+                             * hand with all its patterns */
+} sp_combination;
+
+/* For sp_combination_free whatever the outcome. */
+bool sp_combination_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_combination *tally,
+                           sp_error *error);
+void sp_combination_free(sp_combination *tally);
+/* Adds to what the criterion counts what one pattern brings to a patch: flux, m³/s per m², and where it falls. */
+void sp_combination_add(sp_combination *tally, uint32_t patch, double counted, const sp_wetting *wetting);
+/* Takes nozzle i of a layout in hand. */
+void sp_combination_begin_nozzle(sp_combination *tally, const sp_layout *layout, size_t i);
+/* All patterns of the nozzle in hand are added. */
+void sp_combination_end_nozzle(sp_combination *tally);
+
+#endif
