@@ -164,6 +164,16 @@ static site_best *take_best(remedying *r)
     return best;
 }
 
+/* Whether the last nozzle's edges are another's, which were counted before. */
+static bool shares_edges(const remedying *r, const sp_layout *layout)
+{
+    size_t last = layout->count - 1, k = 0;
+    while (k < last &&
+           !sp_nozzles_share_edges(&layout->nozzles[k], &layout->nozzles[last], &sp_evaluator_setup(r->fine)->liquid))
+        k++;
+    return k < last;
+}
+
 /* m² of the shadow that the layout covers with the last nozzle, of which `alone` says what it brings, and not without
  * it: liquid of one does not depend on the others'. */
 static double newly_covered(const remedying *r, uint32_t shadow, const sp_layout *layout, const sp_coverage *alone)
@@ -171,7 +181,7 @@ static double newly_covered(const remedying *r, uint32_t shadow, const sp_layout
     const sp_patches *patches = sp_evaluator_patches(r->fine);
     const sp_criterion *criterion = &sp_evaluator_setup(r->fine)->criterion;
     const sp_deposits *had = &r->coverage->deposits, *more = &alone->deposits;
-    bool edges = !sp_layout_repeats(layout, layout->count - 1);
+    bool edges = !shares_edges(r, layout);
     double area = 0;
     for (size_t p = 0; p < patches->count; p++) {
         if (r->number[p] != shadow)

@@ -37,8 +37,8 @@ typedef struct {
 /* What one pattern's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
  * the criterion alone covers the share of the patch that lies inside the spray; one that does not may still do so with
  * others', and counts where the patch's point lies inside. The shares that several patterns cover are taken to lie
- * anywhere: together they leave dry the product of what each leaves dry; of nozzles that repeat each other (see
- * sp_layout_repeats) the edges lie in one place and count once. Of a patch that is cut into cells (see
+ * anywhere: together they leave dry the product of what each leaves dry; of nozzles that share their edges (see
+ * sp_layout_repeats) these lie in one place and count once. Of a patch that is cut into cells (see
  * sp_arrival) each covers a share of its own part, or brings its part of what falls on all of the patch. Starts as
  * {0, 1, 0}. */
 typedef struct {

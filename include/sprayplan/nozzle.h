@@ -159,8 +159,12 @@ SP_API sp_layout *sp_layout_create(const sp_nozzle *nozzles, size_t count, sp_er
 SP_API void sp_layout_destroy(sp_layout *layout);
 /* Whether both are of one type, stand in one place and are aimed and set alike, whatever their names. */
 SP_API bool sp_nozzles_spray_alike(const sp_nozzle *a, const sp_nozzle *b);
-/* Whether a nozzle before nozzle i sprays as it does. */
-SP_API bool sp_layout_repeats(const sp_layout *layout, size_t i);
+/* Whether the edges of their sprays lie in one place, however much each sprays: both stand in one place, are aimed and
+ * shaped alike, and as fast. Only of one type is that known of clusters. */
+SP_API bool sp_nozzles_share_edges(const sp_nozzle *a, const sp_nozzle *b, const sp_fluid *liquid);
+/* Whether another nozzle of the layout shares nozzle i's edges and sprays more, or as much and comes before it: where
+ * nozzle i meets a criterion alone, so does that one. */
+SP_API bool sp_layout_repeats(const sp_layout *layout, size_t i, const sp_fluid *liquid);
 /* Σ flow, m³/s. */
 SP_API double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
 

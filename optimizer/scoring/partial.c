@@ -9,18 +9,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool repeats(const sp_partial *partial, size_t i)
+/* Whether item i's edges are item k's, which sprays more, or as much and comes first (see sp_layout_repeats). */
+static bool repeats_item(const sp_search *search, const sp_partial *partial, size_t i, size_t k)
+{
+    const sp_placed *own = &partial->items[i], *other = &partial->items[k];
+    return (other->flow > own->flow || (other->flow >= own->flow && k < i)) &&
+           sp_nozzles_share_edges(&other->nozzle, &own->nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+}
+
+static bool repeats(const sp_search *search, const sp_partial *partial, size_t i)
 {
     bool found = false;
-    for (size_t earlier = 0; earlier < i && !found; earlier++)
-        found = sp_nozzles_spray_alike(&partial->items[earlier].nozzle, &partial->items[i].nozzle);
+    for (size_t k = 0; k < partial->count && !found; k++)
+        found = k != i && repeats_item(search, partial, i, k);
     return found;
 }
 
 /* Adds item i to what hits and runs, and to what is dry. */
 static void pour_item(const sp_search *search, sp_partial *partial, size_t i)
 {
-    bool again = partial->items[i].again = repeats(partial, i);
+    bool again = partial->items[i].again = repeats(search, partial, i);
     const float *field = partial->items[i].field, *more = field + search->patch_count;
     float *restrict hit = partial->hit, *restrict dry = partial->dry, *restrict film = partial->film;
     partial->flow += partial->items[i].flow;
@@ -91,7 +99,7 @@ static void refresh_without(const sp_search *search, sp_partial *partial, const 
         return;
     }
     for (size_t i = 0; i < partial->count; i++)
-        partial->items[i].again = repeats(partial, i);
+        partial->items[i].again = repeats(search, partial, i);
     for (size_t p = 0; p < search->patch_count; p++)
         if (taken->field[p] != 0 || (film && film[p] != 0))
             refresh_patch(search, partial, p);
@@ -173,7 +181,14 @@ bool sp_partial_add(const sp_search *search, sp_partial *partial, sp_placed plac
 {
     if (!append(partial, placed, error))
         return false;
-    pour_item(search, partial, partial->count - 1);
+    size_t added = partial->count - 1, k = 0;
+    while (k < added && !repeats_item(search, partial, k, added))
+        k++;
+    if (k < added) {
+        sp_partial_refresh(search, partial);
+        return true;
+    }
+    pour_item(search, partial, added);
     count_up(search, partial);
     return true;
 }
@@ -255,13 +270,17 @@ bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, ui
     return there < capacity && sp_number_allows(search, partial->count);
 }
 
-const sp_placed *sp_partial_at(const sp_partial *partial, sp_pose pose)
+const sp_placed *sp_partial_edges_at(const sp_search *search, const sp_partial *partial, sp_pose pose)
 {
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    const sp_placed *most = NULL;
     for (size_t i = 0; i < partial->count; i++) {
         const sp_placed *item = &partial->items[i];
-        if (item->pose.site == pose.site && item->pose.variant == pose.variant && item->pose.axis == pose.axis &&
-            item->pose.roll == pose.roll && sp_nozzles_spray_alike(&item->nozzle, &item->origin))
-            return item;
+        if (item->pose.site != pose.site || (most && item->flow <= most->flow))
+            continue;
+        sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, setup->up);
+        if (sp_nozzles_share_edges(&item->nozzle, &nozzle, &setup->liquid))
+            most = item;
     }
-    return NULL;
+    return most;
 }

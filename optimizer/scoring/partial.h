@@ -11,7 +11,7 @@ typedef struct {
     sp_pose pose;     /* the same, where it is still there: of a type that no sweep knows */
     sp_site site;     /* where it is now: a surface's axis changes along it */
     double flow;      /* m³/s */
-    bool again;       /* one before it in the partial layout sprays as it does: its edges count once */
+    bool again;       /* its edges are another's in the partial layout, and count as that one's */
     /* [field_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any
      * liquid covers; or, below 0, less the share that it covers by itself at its spray's edge. Behind these, where film
      * is asked for, the film that comes of it over what is asked for. */
@@ -67,8 +67,8 @@ bool sp_partial_affords(const sp_search *search, const sp_partial *partial, uint
                         double budget);
 /* True where the partial layout may take one more nozzle at the site: number and ports, not water. */
 bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount);
-/* The nozzle that stands in this pose, unmoved; NULL: none. */
-const sp_placed *sp_partial_at(const sp_partial *partial, sp_pose pose);
+/* The nozzle that sprays most of those with the edges of this pose's; NULL: none. */
+const sp_placed *sp_partial_edges_at(const sp_search *search, const sp_partial *partial, sp_pose pose);
 /* Named nozzles, the kept ones first. */
 sp_layout *sp_partial_to_layout(const sp_search *search, const sp_partial *partial, sp_error *error);
 

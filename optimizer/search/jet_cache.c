@@ -62,7 +62,8 @@ bool sp_jet_cache_area(sp_jet_cache *cache, const sp_evaluator *evaluator, uint6
     for (size_t i = 0; done && i < layout->count; i++) {
         done = find(cache, evaluator, jets, reflections, &layout->nozzles[i], error);
         if (done)
-            sp_alone_join(evaluator, &all, &cache->nozzles[cache->count - 1].alone, !sp_layout_repeats(layout, i));
+            sp_alone_join(evaluator, &all, &cache->nozzles[cache->count - 1].alone,
+                          !sp_layout_repeats(layout, i, &sp_evaluator_setup(evaluator)->liquid));
     }
     *area = done ? sp_alone_covered(evaluator, &all) : 0;
     sp_alone_free(&all);

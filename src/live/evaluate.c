@@ -79,27 +79,34 @@ static void stand_for(sp_deposits *all, size_t i, size_t standing)
     all->dry[i] = all->dry[standing];
 }
 
-/* Whether a nozzle before this one, and on, sprays as it does. */
-static bool repeats(const sp_live *live, size_t n)
-{
-    bool found = false;
-    for (size_t i = 0; i < n && !found; i++)
-        found = is_on(live, i) && sp_nozzles_spray_alike(&live->nozzles[i].nozzle, &live->nozzles[n].nozzle);
-    return found;
-}
-
-static void add_up(sp_live *live, unsigned stride)
+static void add_nozzle(sp_live *live, size_t n, bool again, unsigned stride)
 {
     sp_deposits *all = &live->coverage->deposits;
-    for (size_t n = 0; n < live->nozzle_count; n++) {
-        bool again = is_on(live, n) && repeats(live, n);
-        for (size_t i = 0; is_on(live, n) && i < all->count; i++)
-            if (stride == 1 || live->sample.among[i])
-                add_patch(live, &live->nozzles[n].alone->deposits, again, all, i);
-    }
+    for (size_t i = 0; i < all->count; i++)
+        if (stride == 1 || live->sample.among[i])
+            add_patch(live, &live->nozzles[n].alone->deposits, again, all, i);
+}
+
+/* False when memory runs out. */
+static bool add_up(sp_live *live, unsigned stride)
+{
+    const sp_fluid *liquid = &sp_evaluator_setup(live->evaluator)->liquid;
+    sp_deposits *all = &live->coverage->deposits;
+    sp_layout *on = sp_layout_create(NULL, live->nozzle_count, &live->error);
+    if (!on)
+        return false;
+    on->count = 0;
+    for (size_t n = 0; n < live->nozzle_count; n++)
+        if (is_on(live, n))
+            on->nozzles[on->count++] = live->nozzles[n].nozzle;
+    for (size_t n = 0, k = 0; n < live->nozzle_count; n++)
+        if (is_on(live, n))
+            add_nozzle(live, n, sp_layout_repeats(on, k++, liquid), stride);
+    sp_layout_destroy(on);
     for (size_t i = 0; stride > 1 && i < all->count; i++)
         stand_for(all, i, live->sample.standing[i]);
     sp_coverage_judge(live->evaluator, live->coverage);
+    return true;
 }
 
 static void draw_figures(sp_live *live, double flow)
@@ -132,7 +139,8 @@ bool sp_live_evaluate(sp_live *live, unsigned stride)
     live->coverage = good ? sp_coverage_create(live->evaluator, &live->error) : NULL;
     if (!live->coverage)
         return sp_fail(&live->error, SP_ERROR_ARGUMENT, NULL, 0, 0, "not open, or a stride that cannot be");
-    add_up(live, stride);
+    if (!add_up(live, stride))
+        return false;
     draw_figures(live, flow);
     return true;
 }

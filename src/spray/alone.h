@@ -16,7 +16,7 @@ bool sp_alone_create(const sp_evaluator *evaluator, const sp_coverage *coverage,
 void sp_alone_free(sp_alone *alone);
 /* Bytes that it holds. */
 size_t sp_alone_size(const sp_evaluator *evaluator);
-/* Adds one nozzle's to that of others; without its edges where it repeats one of them (see sp_layout_repeats). */
+/* Adds one nozzle's to that of others; without its edges where others count them (see sp_layout_repeats). */
 void sp_alone_join(const sp_evaluator *evaluator, sp_alone *all, const sp_alone *one, bool edges);
 /* m² of what is to be cleaned. */
 double sp_alone_covered(const sp_evaluator *evaluator, const sp_alone *alone);

@@ -39,7 +39,7 @@ void sp_combination_add(sp_combination *tally, uint32_t patch, double counted, c
 
 void sp_combination_begin_nozzle(sp_combination *tally, const sp_layout *layout, size_t i)
 {
-    tally->repeats = sp_layout_repeats(layout, i);
+    tally->repeats = sp_layout_repeats(layout, i, &tally->evaluator->setup.liquid);
 }
 
 void sp_combination_end_nozzle(sp_combination *tally)

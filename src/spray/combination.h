@@ -7,7 +7,7 @@
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
-    bool repeats;           /* the nozzle in hand repeats one before it, whose edges count */
+    bool repeats;           /* the edges of the nozzle in hand are another's, and count as that one's */
     double *counted, *even; /* [patches], m³/s per m²: of all nozzles so far, or where one alone must do, of the one in
                              * hand with all its patterns */
 } sp_combination;

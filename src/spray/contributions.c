@@ -81,7 +81,8 @@ static bool find_edges(const sp_layout *layout, size_t nozzle, shares *each, sp_
     others->count--;
     memmove(&others->nozzles[nozzle], &others->nozzles[nozzle + 1], (others->count - nozzle) * sizeof *others->nozzles);
     for (size_t i = 0; i < others->count; i++)
-        each->edges[i < nozzle ? i : i + 1] = !sp_layout_repeats(others, i);
+        each->edges[i < nozzle ? i : i + 1] =
+            !sp_layout_repeats(others, i, &sp_evaluator_setup(each->evaluator)->liquid);
     sp_layout_destroy(others);
     return true;
 }

@@ -134,7 +134,7 @@ static void no_pose_is_proposed_twice(void **state)
             assert_string_equal(error.message, "");
             assert_int_equal(proposal->layout->count, line ? 5 : 1);
             for (size_t i = 0; i < proposal->layout->count; i++)
-                assert_false(sp_layout_repeats(proposal->layout, i));
+                assert_false(sp_layout_repeats(proposal->layout, i, &j.room.setup.liquid));
             sp_proposal_destroy(proposal);
             room_close(&j.room);
         }
@@ -153,18 +153,84 @@ static void a_pose_is_taken_twice_where_flux_adds_up(void **state)
     sp_proposal *proposal = sp_place(j.room.evaluator, &j.options, &error);
     assert_string_equal(error.message, "");
     assert_int_equal(proposal->layout->count, 2);
-    assert_true(sp_layout_repeats(proposal->layout, 1));
+    assert_true(sp_layout_repeats(proposal->layout, 1, &j.room.setup.liquid));
     sp_proposal_destroy(proposal);
     room_close(&j.room);
+}
+
+static double covered_by(const job *j, const sp_layout *layout, bool forward)
+{
+    sp_error error = {0};
+    sp_coverage *coverage = forward ? sp_evaluate_forward(j->room.evaluator, layout, 0, 20000 * layout->count, &error)
+                                    : sp_evaluate_inverse(j->room.evaluator, layout, &error);
+    assert_non_null(coverage);
+    double area = coverage->covered_area;
+    sp_coverage_destroy(coverage);
+    return area;
+}
+
+/* Two cones whose edges lie in one place, of other types and flows: what the weaker one covers the stronger one does.
+ */
+static void the_stronger_one_stands_for_both(void **state)
+{
+    (void)state;
+    static const double fluxes[] = {0, 2 * LITRES_PER_MINUTE, 4 * LITRES_PER_MINUTE};
+    for (size_t f = 0; f < 3; f++)
+        for (int forward = 0; forward <= 1; forward++) {
+            job j;
+            open_with(&j, room_cone("weak", 70 * DEGREE, 5), fluxes[f], SP_COMBINE_SINGLE);
+            j.types[1] = room_cone("strong", 70 * DEGREE, 9);
+            sp_layout *layout = copies_of(&j, 2);
+            layout->nozzles[1].type = &j.types[1];
+            double both = covered_by(&j, layout, forward), weak, strong;
+            assert_true(sp_layout_repeats(layout, 0, &j.room.setup.liquid));
+            assert_false(sp_layout_repeats(layout, 1, &j.room.setup.liquid));
+            layout->nozzles[0].type = &j.types[1];
+            layout->nozzles[1].type = &j.types[0];
+            assert_float_equal(covered_by(&j, layout, forward), both, 1e-12);
+            layout->count = 1;
+            strong = covered_by(&j, layout, forward);
+            layout->nozzles[0].type = &j.types[0];
+            weak = covered_by(&j, layout, forward);
+            assert_true(weak > 0 && strong >= weak);
+            if (!forward)
+                assert_float_equal(both, strong, 1e-12);
+            sp_layout_destroy(layout);
+            room_close(&j.room);
+        }
+}
+
+/* One pose, and three types that cover the same: the one of least water does, and no second gains by its edges. */
+static void the_weakest_that_does_is_proposed(void **state)
+{
+    (void)state;
+    for (int single = 0; single <= 1; single++) {
+        job j;
+        sp_error error = {0};
+        open_with(&j, room_cone("strong", 70 * DEGREE, 20), 0, single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM);
+        j.types[1] = room_cone("weak", 70 * DEGREE, 5);
+        j.types[2] = room_cone("middle", 70 * DEGREE, 7);
+        j.options.type_count = 3;
+        j.mounts[0].axis = sp_unit(sp_v(0.2, 0.1, -1));
+        j.mounts[0].to = j.mounts[0].from;
+        j.options.max_nozzles = 9;
+        j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+        sp_proposal *proposal = sp_place(j.room.evaluator, &j.options, &error);
+        assert_string_equal(error.message, "");
+        assert_int_equal(proposal->layout->count, 1);
+        assert_ptr_equal(proposal->layout->nozzles[0].type, &j.types[1]);
+        assert_int_equal(proposal->front_count, 1);
+        sp_proposal_destroy(proposal);
+        room_close(&j.room);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(copies_cover_what_one_does),
-        cmocka_unit_test(a_third_adds_its_own),
-        cmocka_unit_test(no_pose_is_proposed_twice),
-        cmocka_unit_test(a_pose_is_taken_twice_where_flux_adds_up),
+        cmocka_unit_test(copies_cover_what_one_does),       cmocka_unit_test(a_third_adds_its_own),
+        cmocka_unit_test(no_pose_is_proposed_twice),        cmocka_unit_test(a_pose_is_taken_twice_where_flux_adds_up),
+        cmocka_unit_test(the_stronger_one_stands_for_both), cmocka_unit_test(the_weakest_that_does_is_proposed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

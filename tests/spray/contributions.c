@@ -104,7 +104,7 @@ static double joined(const room *r, const sp_layout *layout)
         const sp_layout single = {.count = 1, .nozzles = &layout->nozzles[i]};
         sp_coverage *coverage = sp_evaluate(r->evaluator, &single, &error);
         assert_true(coverage && sp_alone_create(r->evaluator, coverage, &one, &error));
-        sp_alone_join(r->evaluator, &all, &one, !sp_layout_repeats(layout, i));
+        sp_alone_join(r->evaluator, &all, &one, !sp_layout_repeats(layout, i, &r->setup.liquid));
         sp_alone_free(&one);
         sp_coverage_destroy(coverage);
     }

@@ -137,6 +137,15 @@ static void warn_of_hollows(cli_findings *found)
     }
 }
 
+/* Whether a nozzle before nozzle i sprays as it does. */
+static bool is_doubled(const sp_layout *layout, size_t i)
+{
+    size_t earlier = 0;
+    while (earlier < i && !sp_nozzles_spray_alike(&layout->nozzles[earlier], &layout->nozzles[i]))
+        earlier++;
+    return earlier < i;
+}
+
 static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -144,7 +153,7 @@ static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
         sp_error error = {0};
         if (!cli_admits(found->opened, &layout->nozzles[i], &error))
             warn(found, "%s", error.message);
-        if (sp_layout_repeats(layout, i))
+        if (is_doubled(layout, i))
             warn(found, "nozzle \"%s\": one before it is of the same type, in the same place and aimed alike",
                  layout->nozzles[i].name);
         if (error.kind == SP_ERROR_MEMORY)
