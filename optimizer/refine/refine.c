@@ -10,9 +10,7 @@
 #define SAVING 0.015 /* each by so much less */
 #define BETWEEN 0.05 /* less water than a layout of the front, for another */
 #define APART 0.02   /* share by which waters must differ for that */
-#define NEAR 0.006   /* of the target: what may be missing for a layout to be near it */
-#define NEAR_MOST 5  /* layouts near it that are tried */
-#define LEEWAY 0.03  /* more water that such a layout may take */
+#define NEAR_MOST 5  /* layouts that all but reach the target, and are sharpened with the best */
 
 #define SHARP_ROUNDS 3    /* of the last local search */
 #define SHARP_SAVING 2e-3 /* less water, for another round */
@@ -127,13 +125,10 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
     if (!sp_deadline_goes_on(refining->deadline, "refine", 1))
         return true;
     bool done = sp_try_also(refining, &trials, &front->best, sp_best_budget(refining), SP_TRIAL_BY_TURNS);
-    for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
-        const sp_front_entry *entry = &front->by_water.entries[i];
-        double budget = fmin(entry->point.outlay * (1 + LEEWAY), front->best.outlay);
-        if (entry->point.outlay < front->best.outlay * (1 - SP_GAIN_LEAST) && entry->point.area < front->target &&
-            entry->point.area >= front->target * (1 - NEAR))
-            done = sp_try_also(refining, &trials, &entry->partial, budget, SP_TRIAL_BY_TURNS);
-    }
+    for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++)
+        if (sp_is_near_target(front, i))
+            done = sp_try_also(refining, &trials, &front->by_water.entries[i].partial, sp_near_budget(front, i),
+                               SP_TRIAL_BY_TURNS);
     sp_front_point *points = NULL;
     done = done && sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error) &&
            (points = sp_trials_measure_ahead(refining, &trials, false));
@@ -167,7 +162,7 @@ static bool refine_all(sp_refining *refining)
         return false;
     bool saves = sp_front_saves(front);
     return recombine_front(refining) && (!saves || sp_save_water(refining)) && recombine_front(refining) &&
-           sharpen_often(refining, saves);
+           (!saves || sp_reach_target(refining)) && sharpen_often(refining, saves);
 }
 
 bool sp_refine_asked(const sp_refine *refine)

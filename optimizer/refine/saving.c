@@ -3,6 +3,12 @@
 #include "search/exchange.h"
 
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
+#define NEAR 0.006        /* of the target: what may be missing for a layout to be near it */
+#define LEEWAY 0.03       /* more outlay that such a layout may take */
+#define NEAR_MOST 4       /* such layouts that are annealed, those of most outlay */
+#define ANNEALINGS 4      /* of each */
+#define ROUNDS 3          /* of all of that */
+#define SAVING 2e-3       /* less outlay, for another round */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 
 bool sp_save_flow(sp_refining *refining, const sp_partial *full)
@@ -89,4 +95,48 @@ bool sp_save_water(sp_refining *refining)
     }
     sp_pool_gains_free(&gains);
     return done;
+}
+
+bool sp_is_near_target(const sp_front *front, size_t i)
+{
+    const sp_front_point *point = &front->by_water.entries[i].point;
+    return point->outlay < front->best.outlay * (1 - SP_GAIN_LEAST) && point->area < front->target &&
+           point->area >= front->target * (1 - NEAR);
+}
+
+double sp_near_budget(const sp_front *front, size_t i)
+{
+    return fmin(front->by_water.entries[i].point.outlay * (1 + LEEWAY), front->best.outlay);
+}
+
+/* Each from several seeds: which of many layouts that are all but equal annealing ends at is its luck. */
+static bool anneal_near(sp_refining *refining)
+{
+    const sp_front *front = refining->front;
+    sp_trials trials = {0};
+    bool done = true;
+    size_t near = 0;
+    for (size_t i = front->by_water.count; done && i-- > 0 && near < NEAR_MOST;) {
+        if (!sp_is_near_target(front, i))
+            continue;
+        near++;
+        for (int k = 0; done && k < ANNEALINGS; k++)
+            done = sp_try_also(refining, &trials, &front->by_water.entries[i].partial, sp_near_budget(front, i),
+                               SP_TRIAL_ANNEALING);
+    }
+    done = done && sp_trials_carry_out(refining, &trials);
+    sp_trials_free(&trials);
+    return done;
+}
+
+bool sp_reach_target(sp_refining *refining)
+{
+    double before = INFINITY;
+    const sp_partial *best = &refining->front->best;
+    for (int round = 0; round < ROUNDS && best->outlay < before * (1 - SAVING); round++) {
+        before = best->outlay;
+        if (!anneal_near(refining))
+            return false;
+    }
+    return true;
 }
