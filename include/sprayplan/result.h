@@ -128,6 +128,8 @@ SP_API bool sp_same_surface(const sp_figures *a, const sp_figures *b);
 /* Whether it is told of what surface a layout is; whether all of which it is are of one. */
 SP_API bool sp_figures_tell_surface(const sp_figures *figures);
 SP_API bool sp_figures_share_surface(const sp_figures *figures, size_t count);
+/* Whether all were counted on texels of one length, up to round-off, those that tell none aside. */
+SP_API bool sp_figures_share_texel(const sp_figures *figures, size_t count);
 /* Whether of both layouts the same was asked for, up to round-off, or of neither it is told what; whether it is so of
  * all. */
 SP_API bool sp_same_criterion(const sp_figures *a, const sp_figures *b);

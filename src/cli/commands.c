@@ -34,10 +34,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                    "Ctrl-C ends the search: the best layout so far is written then, and called that. Under mpirun "
                    "several processes work out one proposal together.",
                    "sprayplan place vessel.yaml -o out/vessel", 1, 1},
-    [CLI_COMPARE] = {"compare", "A B...", "scenes or results side by side, in one report",
-                     "Each is a scene, whose own nozzles are evaluated, or a result.json that simulate or place wrote, "
-                     "whose figures are taken as they are.",
-                     "sprayplan compare vessel.yaml out/vessel/result.json -o out/compared", 2, CLI_INPUTS_MOST},
+    [CLI_COMPARE] =
+        {"compare", "A B...", "scenes or results side by side, in one report",
+         "Each is a scene, whose own nozzles are evaluated, or a result.json that simulate or place wrote, or "
+         "its folder, whose figures are taken as they are.",
+         "sprayplan compare vessel.yaml out/vessel/result.json -o out/compared", 2, CLI_INPUTS_MOST},
     [CLI_STUDY] =
         {"study", "SCENE", "measure speed against accuracy on this scene",
          "Evaluates the scene's own nozzles in every way there is, and tells the error, seconds and memory of "

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* One input of the command line: a scene that is evaluated, or the figures of a result.json. */
 typedef struct {
@@ -14,8 +16,10 @@ typedef struct {
 } compared;
 
 typedef struct {
+    cli_options options;     /* with the result in place of a folder */
     compared *inputs;        /* [input_count] */
     const sp_scene **scenes; /* [input_count], NULL for a result */
+    char *files[CLI_INPUTS_MOST];
     cli_inputs read;
     sp_design *designs;
     char **names; /* of the designs, where a result holds several */
@@ -24,6 +28,36 @@ typedef struct {
     sp_figures *shared;              /* [design_count], of those that show what another run found; they borrow all */
     cli_clock clock;
 } comparison;
+
+/* A folder that a run left stands for the result in it. Malloc'd; NULL with an error. */
+static char *file_of(const char *path, sp_error *error)
+{
+    static const char name[] = "result.json";
+    struct stat status;
+    bool folder = !cli_is_standard_input(path) && stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+    size_t length = strlen(path), size = length + sizeof name + 1;
+    char *file = malloc(size);
+    if (!file) {
+        sp_fail_memory(error);
+        return NULL;
+    }
+    const char *slash = folder && path[length - 1] != '/' ? "/" : "";
+    snprintf(file, size, "%s%s%s", path, slash, folder ? name : "");
+    if (!folder || access(file, F_OK) == 0)
+        return file;
+    free(file);
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+            "found a folder without a result.json, expected a scene, a result.json, or the folder of one");
+    return NULL;
+}
+
+static bool find_files(comparison *all, sp_error *error)
+{
+    for (int i = 0; i < all->options.input_count; i++)
+        if (!(all->options.inputs[i] = all->files[i] = file_of(all->options.inputs[i], error)))
+            return false;
+    return true;
+}
 
 static bool is_result(const char *path)
 {
@@ -168,8 +202,11 @@ static bool share_figures(comparison *all, sp_error *error)
     return true;
 }
 
-static bool compare(comparison *all, const cli_options *options, sp_error *error)
+static bool compare(comparison *all, sp_error *error)
 {
+    const cli_options *options = &all->options;
+    if (!find_files(all, error))
+        return false;
     all->inputs = calloc((size_t)options->input_count, sizeof *all->inputs);
     all->scenes = calloc((size_t)options->input_count, sizeof *all->scenes);
     if (!all->inputs || !all->scenes)
@@ -203,9 +240,9 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
 int cli_compare(const cli_options *options)
 {
     sp_error error = {0};
-    comparison all = {0};
+    comparison all = {.options = *options};
     cli_clock_start(&all.clock);
-    bool good = compare(&all, options, &error);
+    bool good = compare(&all, &error);
     for (int i = 0; all.inputs && i < options->input_count; i++) {
         sp_coverage_destroy(all.inputs[i].coverage);
         cli_scene_close(&all.inputs[i].opened);
@@ -213,6 +250,8 @@ int cli_compare(const cli_options *options)
     }
     for (size_t i = 0; i < all.design_count; i++)
         free(all.names[i]);
+    for (int i = 0; i < options->input_count; i++)
+        free(all.files[i]);
     free(all.names);
     free(all.read_figures);
     free(all.shared);

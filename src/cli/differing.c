@@ -1,6 +1,8 @@
 /* What layouts side by side do not have in common besides their nozzles, said before their figures. */
 #include "cli.h"
 
+#include <math.h>
+
 static void print_geometries(const sp_result *result, const sp_figures *figures)
 {
     if (sp_figures_share_surface(figures, result->design_count))
@@ -30,8 +32,24 @@ static void print_criteria(const sp_result *result, const sp_figures *figures)
     printf("\n\n");
 }
 
+static void print_texels(const sp_result *result, const sp_figures *figures)
+{
+    if (sp_figures_share_texel(figures, result->design_count))
+        return;
+    for (size_t i = 0; i < result->design_count; i++) {
+        printf("%s%s ", i ? "; " : "the texels differ, and with them figures, by about as much as these are off: ",
+               result->designs[i].name);
+        if (isfinite(figures[i].texel))
+            printf("%.3g mm", 1e3 * figures[i].texel);
+        else
+            printf("not told");
+    }
+    printf("\n\n");
+}
+
 void cli_print_differing(const sp_result *result, const sp_figures *figures)
 {
     print_geometries(result, figures);
     print_criteria(result, figures);
+    print_texels(result, figures);
 }

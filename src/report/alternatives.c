@@ -78,7 +78,7 @@ static void add_water(const sp_page *page, sp_text *text, size_t design)
 static void add_price(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
-    sp_markup_water(text, L_MIN * sp_page_price(figures));
+    sp_markup_water(text, L_MIN * sp_page_price(page, figures));
     sp_text_add(text, "&nbsp;L/min");
     if (isfinite(sp_figures_money(figures))) {
         sp_text_add(text, ", ");
@@ -86,7 +86,7 @@ static void add_price(const sp_page *page, sp_text *text, size_t design)
         sp_text_add(text, "&nbsp;%s", figures->water_cost.currency);
     }
     sp_text_add(text, "<br><span class=\"unit\">");
-    sp_markup_water_of(text, L_MIN * figures->mount_cost, L_MIN * sp_page_price(figures));
+    sp_markup_water_of(text, L_MIN * figures->mount_cost, L_MIN * sp_page_price(page, figures));
     sp_text_add(text, "&nbsp;L/min for mounts</span>");
 }
 
@@ -129,7 +129,7 @@ static void add_at_its_price(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *first = &page->figures[first_of(page)];
     sp_page_point best, ignored;
-    sp_page_best_points(page, design, sp_page_price(first), first->covered_area, &best, &ignored);
+    sp_page_best_points(page, design, sp_page_price(page, first), first->covered_area, &best, &ignored);
     if (best.area < 0) {
         sp_text_add(text, page->costly ? "nothing found for so low a price" : "nothing found with so little water");
         return;
@@ -152,7 +152,7 @@ static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t desig
     const sp_figures *first = &page->figures[first_of(page)];
     double area = first->coverage * page->figures[design].clean_area;
     sp_page_point best, ignored;
-    sp_page_best_points(page, design, sp_page_price(first), area, &ignored, &best);
+    sp_page_best_points(page, design, sp_page_price(page, first), area, &ignored, &best);
     if (!isfinite(best.price)) {
         sp_text_add(text, "nothing found that covers as much");
         return;
@@ -162,8 +162,8 @@ static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t desig
     if (design == first_of(page))
         return;
     sp_text_add(text, " (");
-    add_gain(text, L_MIN * (best.price - sp_page_price(first)), sp_water_decimals(L_MIN * sp_page_price(first)),
-             "L/min", best.fittings, first->fittings);
+    add_gain(text, L_MIN * (best.price - sp_page_price(page, first)),
+             sp_water_decimals(L_MIN * sp_page_price(page, first)), "L/min", best.fittings, first->fittings);
     sp_text_add(text, ")<br><span class=\"unit\">");
     add_nozzle_count(text, best.nozzles, best.fittings);
     sp_text_add(text, "</span>");

@@ -2,9 +2,9 @@
  * The price is water alone where mounts cost nothing. */
 #include "page.h"
 
-double sp_page_price(const sp_figures *figures)
+double sp_page_price(const sp_page *page, const sp_figures *figures)
 {
-    return isfinite(figures->mount_cost) ? sp_figures_price(figures) : figures->flow;
+    return page->costly && isfinite(figures->mount_cost) ? sp_figures_price(figures) : figures->flow;
 }
 
 /* The front's points, then what was reported: the refined proposal may lie beyond the front. */
@@ -21,7 +21,7 @@ static bool point_at(const sp_page *page, size_t design, size_t i, sp_page_point
     if (i >= 2)
         return false;
     const sp_figures *figures = &page->figures[reported[i] == SP_UNKNOWN ? design : reported[i]];
-    *p = (sp_page_point){sp_page_price(figures), figures->covered_area, figures->nozzle_count, figures->fittings};
+    *p = (sp_page_point){sp_page_price(page, figures), figures->covered_area, figures->nozzle_count, figures->fittings};
     return true;
 }
 
@@ -108,7 +108,7 @@ void sp_page_gain(const sp_page *page, sp_text *text)
     if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
-    sp_page_best_points(page, page->main, sp_page_price(manual), manual->covered_area, &same_price, &same_area);
+    sp_page_best_points(page, page->main, sp_page_price(page, manual), manual->covered_area, &same_price, &same_area);
     if (same_price.area < 0 || !isfinite(same_area.price))
         return;
     sp_text_add(text, "<p class=\"headline\">%s than the engineer&#39;s, the best layout found%s covers <strong>",
@@ -118,7 +118,7 @@ void sp_page_gain(const sp_page *page, sp_text *text)
                 page->costly ? "takes, in water and what mounts cost," : "needs");
     sp_markup_water(text, 6e4 * same_area.price);
     sp_text_add(text, "&nbsp;L/min</strong> (");
-    sp_markup_signed(text, 100 * (same_area.price / sp_page_price(manual) - 1), 0);
+    sp_markup_signed(text, 100 * (same_area.price / sp_page_price(page, manual) - 1), 0);
     sp_text_add(text, "&nbsp;%%).</p>\n");
 }
 
@@ -142,10 +142,10 @@ void sp_page_comparison(const sp_page *page, sp_text *text)
             sp_page_point same_price, same_area;
             if (page->alternatives ? !page->result->designs[i].alternative : i != page->main)
                 continue;
-            sp_page_best_points(page, i, sp_page_price(manual), manual->covered_area, &same_price, &same_area);
+            sp_page_best_points(page, i, sp_page_price(page, manual), manual->covered_area, &same_price, &same_area);
             add_head(page, text, i, heads[page->costly][k]);
             if (k)
-                add_same_area(text, sp_page_price(manual), &same_area, page->figures[i].clean_area);
+                add_same_area(text, sp_page_price(page, manual), &same_area, page->figures[i].clean_area);
             else
                 add_same_price(page, text, manual->coverage, &same_price, page->figures[i].clean_area);
         }

@@ -37,6 +37,23 @@ static void add_criteria(const sp_page *page, sp_text *text, bool one)
     sp_text_add(text, ".</p>\n");
 }
 
+/* No fault, but what a layout covers depends on them. */
+static void add_texels(const sp_page *page, sp_text *text)
+{
+    sp_text_add(text, "<p class=\"note\"><strong>The texels differ.</strong> Nozzles then have other figures, by about "
+                      "as much as these are off: ");
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        double texel = page->figures[i].texel;
+        sp_text_add(text, i ? "; " : "");
+        sp_page_narrow_name(page, text, i);
+        if (isfinite(texel))
+            sp_text_add(text, " %.3g&nbsp;mm", 1e3 * texel);
+        else
+            sp_text_add(text, " not told");
+    }
+    sp_text_add(text, ".</p>\n");
+}
+
 void sp_page_differing(const sp_page *page, sp_text *text)
 {
     size_t count = page->result->design_count;
@@ -45,4 +62,6 @@ void sp_page_differing(const sp_page *page, sp_text *text)
         add_geometries(page, text);
     if (count > 1 && !(one && page->figures[0].criterion_known))
         add_criteria(page, text, one);
+    if (!sp_figures_share_texel(page->figures, count))
+        add_texels(page, text);
 }

@@ -56,7 +56,7 @@ static axes choose_axes(const sp_page *page)
     double most = 1e-3, least = 100;
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_proposal *proposal = front_of(page, i);
-        most = fmax(most, 6e4 * sp_page_price(&page->figures[i]));
+        most = fmax(most, 6e4 * sp_page_price(page, &page->figures[i]));
         least = fmin(least, 100 * page->figures[i].coverage);
         for (size_t k = 0; proposal && k < proposal->front_count; ++k) {
             most = fmax(most, 6e4 * proposal->front[k].outlay);
@@ -210,7 +210,7 @@ static bool is_below(const sp_page *page)
     axes a = choose_axes(page);
     for (size_t i = 0; i < count; ++i) {
         const sp_proposal *proposal = front_of(page, i);
-        double price = sp_page_price(&page->figures[i]);
+        double price = sp_page_price(page, &page->figures[i]);
         if (is_in_corner(page, &a, price, price, page->figures[i].coverage))
             return true;
         for (size_t k = 0; proposal && k < proposal->front_count; ++k)
@@ -258,8 +258,8 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     for (size_t i = 0; i < count; ++i) {
         double x, y;
         legend_place(page, i, &x, &y);
-        add_marker(text, x_of(a, 6e4 * sp_page_price(&page->figures[i])), y_of(a, 100 * page->figures[i].coverage), i,
-                   sp_page_colour(page, i));
+        add_marker(text, x_of(a, 6e4 * sp_page_price(page, &page->figures[i])),
+                   y_of(a, 100 * page->figures[i].coverage), i, sp_page_colour(page, i));
         if (legend_lines(page) == 0)
             continue;
         add_marker(text, x - 16, y - 4, i, sp_page_colour(page, i));

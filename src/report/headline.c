@@ -49,7 +49,7 @@ static void add_cards(const sp_page *page, sp_text *text)
     const double coverage[2] = {100 * main->coverage, 100 * manual->coverage};
     const double water[2] = {6e4 * main->flow, 6e4 * manual->flow};
     const double ratio[2] = {main->area_per_water / 6e4, manual->area_per_water / 6e4};
-    const double price[2] = {6e4 * sp_page_price(main), 6e4 * sp_page_price(manual)};
+    const double price[2] = {6e4 * sp_page_price(page, main), 6e4 * sp_page_price(page, manual)};
     const double money[2] = {sp_figures_money(main), sp_figures_money(manual)};
     const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
     static const int none[2] = {0, 0}, tenths[2] = {1, 1};

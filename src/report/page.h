@@ -13,7 +13,7 @@ typedef struct {
     const sp_figures *figures; /* [result->design_count] */
     size_t main;               /* what is proposed, or the only design */
     bool alternatives;         /* designs with an `alternative` are what it was chosen from */
-    bool costly;               /* mounts cost something: layouts are held against each other by price, not by water */
+    bool costly;               /* prices are told: layouts are held against each other by price, not by water */
     size_t manual, greedy;
     sp_colour_scale scale; /* of the pictures */
     sp_colour_scale flux;  /* as they have it where no scene asks for another */
@@ -64,8 +64,8 @@ void sp_page_headline(const sp_page *page, sp_text *text);
  * them, and what each nozzle that wants a fitting buys. Nothing without alternatives. */
 void sp_page_choice(const sp_page *page, sp_text *text);
 void sp_page_alternatives(const sp_page *page, sp_text *text);
-/* What a layout takes, m³/s: its water, and where they cost something its mounts, as the outlay of a point. */
-double sp_page_price(const sp_figures *figures);
+/* What a layout takes, m³/s: its water, and where the page tells prices its mounts, as the outlay of a point. */
+double sp_page_price(const sp_page *page, const sp_figures *figures);
 /* Most area for no higher price than `price` (m³/s), lowest price that covers no less than `area` (m²), of what was
  * reported and of the front of the proposal that speaks of a design. Nothing found: area -1, price INFINITY. */
 typedef struct {

@@ -76,6 +76,16 @@ bool sp_figures_share_surface(const sp_figures *figures, size_t count)
     return share;
 }
 
+bool sp_figures_share_texel(const sp_figures *figures, size_t count)
+{
+    double shortest = INFINITY, longest = 0;
+    for (size_t i = 0; i < count; ++i) {
+        shortest = fmin(shortest, figures[i].texel);
+        longest = fmax(longest, figures[i].texel);
+    }
+    return longest <= shortest * (1 + 1e-9);
+}
+
 bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
 {
     figures->shadows = calloc(shadows + 1, sizeof *figures->shadows);

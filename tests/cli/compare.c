@@ -95,6 +95,24 @@ static void criteria_are_told(void **state)
     assert_page("both/report.html", "<dt>Covered means</dt><dd>at least 1 L/min/m2</dd>", "The criteria differ");
 }
 
+/* What is asked for differs, so that each keeps its own figures; of a scene as of a result. */
+static void texels_are_told(void **state)
+{
+    (void)state;
+    outcome done = run_program("compare long/result.json strict/result.json -o lengths");
+    assert_non_null(strstr(done.out, "long/result.json 90 mm; strict/result.json 60 mm\n"));
+    forget(&done);
+    assert_page("lengths/report.html",
+                "<strong>The texels differ.</strong> Nozzles then have other figures, by about as much as "
+                "these are off: "
+                "long/<wbr>result.json 90&nbsp;mm; strict/<wbr>result.json 60&nbsp;mm.",
+                "not told");
+    run_quietly("compare strict.yaml strict/result.json --set simulate.texel=100mm -o lengths --quiet");
+    assert_page("lengths/report.html", "strict.yaml 100&nbsp;mm; strict/<wbr>result.json 60&nbsp;mm.", "not told");
+    run_quietly("compare strict/result.json near/result.json -o lengths --quiet");
+    assert_page("lengths/report.html", "The criteria differ", "The texels differ");
+}
+
 /* As results were that older versions or others left: `key` of the whole, or of its first layout, is gone. */
 static void write_without(const char *key, const char *from, const char *to)
 {
@@ -165,6 +183,23 @@ static void another_geometry_is_told(void **state)
     free(page);
 }
 
+/* Its result is not written over, as that named itself is not. */
+static void a_folder_stands_for_its_result(void **state)
+{
+    (void)state;
+    json_t *both = expect_json("compare long strict/ --json", 0);
+    assert_true(coverage_of(both, "long/result.json", NULL) == figure_in("long/result.json", NULL));
+    assert_true(coverage_of(both, "strict/result.json", NULL) == figure_in("strict/result.json", NULL));
+    json_decref(both);
+    outcome done = run_program("compare long strict -o long");
+    assert_int_equal(done.status, 1);
+    assert_non_null(strstr(done.err, "result.json"));
+    forget(&done);
+    expect("compare long .", 3, "",
+           ".: found a folder without a result.json, expected a scene, a result.json, or the folder of "
+           "one\n");
+}
+
 static size_t count_of(const char *text, const char *part)
 {
     size_t count = 0;
@@ -227,9 +262,11 @@ int main(void)
         cmocka_unit_test(one_layout_has_one_figure),
         cmocka_unit_test(what_differs_otherwise_keeps_its_own),
         cmocka_unit_test(criteria_are_told),
+        cmocka_unit_test(texels_are_told),
         cmocka_unit_test(what_is_not_known_is_told),
         cmocka_unit_test(shadows_that_are_not_told_are_not_nothing),
         cmocka_unit_test(another_geometry_is_told),
+        cmocka_unit_test(a_folder_stands_for_its_result),
         cmocka_unit_test(many_fold),
     };
     return cmocka_run_group_tests_name("compare", tests, make_results, close_workplace);

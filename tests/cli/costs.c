@@ -128,6 +128,29 @@ static void the_layout_written_has_the_same_price(void **state)
     json_decref(again);
 }
 
+static void assert_page(const char *path, const char *says, const char *not_that)
+{
+    char *page = read_file(path, NULL);
+    assert_non_null(strstr(page, says));
+    assert_null(strstr(page, not_that));
+    free(page);
+}
+
+/* What mounts cost is on the axis only where each of the layouts compared tells it. */
+static void layouts_compared_stand_at_their_prices(void **state)
+{
+    (void)state;
+    char text[2048];
+    json_decref(expect_json("compare out/result.json out/layout.yaml -o prices --json", 0));
+    assert_page("prices/report.html", "Coverage against price", "Coverage against water");
+    assert_page("prices/report.html", ">Price: water and mounts, L/min<", ">Water, L/min<");
+    snprintf(text, sizeof text, room_with, "");
+    *strstr(text, "place:") = '\0';
+    write_file("unpriced.yaml", text);
+    json_decref(expect_json("compare out/result.json unpriced.yaml -o waters --json", 0));
+    assert_page("waters/report.html", ">Water, L/min<", "Coverage against price");
+}
+
 /* What costs nothing is not spoken of. */
 static void no_prices_without_costs(void **state)
 {
@@ -147,8 +170,11 @@ static void no_prices_without_costs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_layout_has_its_price), cmocka_unit_test(fronts_and_bounds_are_of_prices),
-        cmocka_unit_test(page_tells_prices),          cmocka_unit_test(the_layout_written_has_the_same_price),
+        cmocka_unit_test(every_layout_has_its_price),
+        cmocka_unit_test(fronts_and_bounds_are_of_prices),
+        cmocka_unit_test(page_tells_prices),
+        cmocka_unit_test(the_layout_written_has_the_same_price),
+        cmocka_unit_test(layouts_compared_stand_at_their_prices),
         cmocka_unit_test(no_prices_without_costs),
     };
     return cmocka_run_group_tests_name("costs of mounts", tests, run_once, forget_run);

@@ -211,16 +211,28 @@ const char *sp_page_colour(const sp_page *page, size_t design)
     return others[design % (sizeof others / sizeof *others)];
 }
 
+/* Layouts of several runs are held against each other by price where all tell theirs, else by water. */
+static bool all_tell_prices(const sp_page *page)
+{
+    bool all = true, any = false;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        all = all && isfinite(page->figures[i].mount_cost);
+        any = any || page->figures[i].mount_cost > 0;
+    }
+    return all && any;
+}
+
 /* Roles by name, but only in a result of place; in a comparison a file may be called anything. */
 static void find_roles(sp_page *page)
 {
     const sp_result *result = page->result;
     page->main = result->design_count == 1 ? 0 : SP_UNKNOWN;
     page->manual = page->greedy = SP_UNKNOWN;
-    if (strcmp(result->command, "compare") == 0)
+    bool compared = strcmp(result->command, "compare") == 0;
+    page->costly = compared ? all_tell_prices(page) : sp_result_is_costly(result);
+    if (compared)
         return;
     page->alternatives = sp_result_has_alternatives(result);
-    page->costly = sp_result_is_costly(result);
     if (page->alternatives)
         page->main = sp_result_proposed(result);
     for (size_t i = 0; i < result->design_count; ++i) {
@@ -312,7 +324,8 @@ char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error)
     sp_figures *figures = sp_result_figures(result, error);
     char *scene = sp_text_utf8(result->scene), *html = NULL;
     page.figures = figures;
-    find_roles(&page);
+    if (figures)
+        find_roles(&page);
     page.live = !sp_page_not_live(&page);
     sp_text text = {0};
     if (!scene)
