@@ -53,6 +53,8 @@ typedef struct {
     bool reached;         /* it covers what was asked for, by its own count */
     size_t nozzles;
     double water;            /* m³/s */
+    double outlay;           /* m³/s, as that of sp_proposal: the price that is minimised */
+    bool costly;             /* some mount costs something; else outlay is water */
     double coverage;         /* by its own evaluator, fraction */
     double confirmed;        /* covered share of the points, each judged for itself at the first impact */
     double confirmed_spread; /* twice its standard error */

@@ -41,12 +41,12 @@ char *sp_study_place_csv(const sp_study *study, sp_error *error)
     if (!study)
         return NULL;
     sp_text text = {0};
-    sp_text_add(&text, "trajectory,refined,shift,texel_m,limited,ended_early,reached,nozzles,water_l_min,coverage,"
-                       "confirmed,two_standard_errors,seconds,cpu_s,limit_s,memory_bytes\n");
+    sp_text_add(&text, "trajectory,refined,shift,texel_m,limited,ended_early,reached,nozzles,water_l_min,price_l_min,"
+                       "coverage,confirmed,two_standard_errors,seconds,cpu_s,limit_s,memory_bytes\n");
     for (size_t i = 0; i < study->place_count; i++) {
         const sp_study_place *place = &study->places[i];
-        const double values[] = {6e4 * place->water, place->coverage, place->confirmed, place->confirmed_spread,
-                                 place->seconds,     place->cpu,      place->limit};
+        const double values[] = {6e4 * place->water,      6e4 * place->outlay, place->coverage, place->confirmed,
+                                 place->confirmed_spread, place->seconds,      place->cpu,      place->limit};
         sp_text_add(&text, "%s,%d,%d,", sp_word_trajectory(&place->fidelity), place->refine, place->shift);
         sp_text_number(&text, place->fidelity.texel);
         sp_text_add(&text, ",%d,%d,%d,%zu", place->limited, place->ended_early, place->reached, place->nozzles);

@@ -106,6 +106,7 @@ static bool add_place(json_t *places, const sp_study_place *place)
                 put(object, "shift", json_integer(place->shift)) &&
                 put_flag(object, "ended_early", place->ended_early) && put_flag(object, "reached", place->reached) &&
                 put_count(object, "nozzles", place->nozzles) && put_real(object, "water_l_min", 6e4 * place->water) &&
+                (!place->costly || put_real(object, "price_l_min", 6e4 * place->outlay)) &&
                 put_real(object, "coverage", place->coverage) && put_real(object, "confirmed", place->confirmed) &&
                 put_real(object, "two_standard_errors", place->confirmed_spread) &&
                 put(object, "speed", place_speed(place));

@@ -22,7 +22,13 @@ static const sp_study_place *middle(const sp_study *study, size_t first)
     return &study->places[group_size(study, first) == IN_GROUP ? first + 1 : first];
 }
 
-static void draw(sp_text *text, const sp_study *study, bool water)
+/* Where mounts cost something the search minimises prices, which then stand where water does elsewhere. */
+static bool is_costly(const sp_study *study)
+{
+    return study->places->costly;
+}
+
+static void draw(sp_text *text, const sp_study *study, bool outlay)
 {
     sp_plot_series series[MOST_GROUPS];
     sp_plot_point points[MOST_GROUPS * IN_GROUP];
@@ -34,8 +40,8 @@ static void draw(sp_text *text, const sp_study *study, bool water)
         for (size_t i = 0; i < s->count; i++) {
             const sp_study_place *place = &study->places[first + i];
             double spread = 100 * place->confirmed_spread, confirmed = 100 * place->confirmed;
-            s->points[i] = water ? (sp_plot_point){place->seconds, 6e4 * place->water, NAN, NAN}
-                                 : (sp_plot_point){place->seconds, confirmed, confirmed - spread, confirmed + spread};
+            s->points[i] = outlay ? (sp_plot_point){place->seconds, 6e4 * place->outlay, NAN, NAN}
+                                  : (sp_plot_point){place->seconds, confirmed, confirmed - spread, confirmed + spread};
         }
         sp_text words = {0};
         sp_words_place(&words, middle(study, first));
@@ -43,10 +49,14 @@ static void draw(sp_text *text, const sp_study *study, bool water)
         snprintf(s->name, sizeof s->name, "%s", name ? name : "");
         free(name);
     }
-    sp_plot_draw(text, &(sp_plot){.label = water ? "Chart: water of the proposal against seconds of the search"
-                                                 : "Chart: confirmed coverage against seconds of the search",
+    bool costly = is_costly(study);
+    sp_plot_draw(text, &(sp_plot){.label = !outlay  ? "Chart: confirmed coverage against seconds of the search"
+                                           : costly ? "Chart: price of the proposal against seconds of the search"
+                                                    : "Chart: water of the proposal against seconds of the search",
                                   .x_title = "Seconds until the layout was there",
-                                  .y_title = water ? "Water, L/min" : "Confirmed coverage, %",
+                                  .y_title = !outlay  ? "Confirmed coverage, %"
+                                             : costly ? "Price: water and mounts, L/min"
+                                                      : "Water, L/min",
                                   .log_x = true,
                                   .count = groups,
                                   .series = series});
@@ -108,9 +118,11 @@ static void add_group(sp_text *text, const sp_study *study, size_t first)
     sp_text_add(text, "</th>");
     for (size_t i = 0; i < IN_GROUP; i++) {
         sp_text_add(text, "<td>");
-        sp_markup_water(text, i < count ? water_of(&places[i]) : NAN);
+        sp_markup_water(text, i < count ? 6e4 * places[i].outlay : NAN);
         sp_text_add(text, "</td>");
     }
+    if (is_costly(study))
+        add_range(text, places, count, water_of, 1);
     add_range(text, places, count, coverage_of, 2);
     add_range(text, places, count, confirmed_of, 2);
     add_range(text, places, count, seconds_of, 1);
@@ -129,25 +141,28 @@ void sp_study_place_page(sp_text *text, const sp_study *study)
 {
     if (study->place_count == 0)
         return;
-    sp_text_add(text, "<section id=\"placements\"><h2>Placements</h2>\n<h3>Water that is proposed</h3>\n");
+    const char *outlay = is_costly(study) ? "Price" : "Water";
+    sp_text_add(text, "<section id=\"placements\"><h2>Placements</h2>\n<h3>%s of what is proposed</h3>\n", outlay);
     draw(text, study, true);
     sp_text_add(text, "<h3>Coverage that points confirm</h3>\n");
     draw(text, study, false);
     sp_text_add(
         text,
         "<h3>Every search</h3>\n<div class=\"wide\"><table class=\"numbers small\"><thead><tr><th "
-        "rowspan=\"2\">Search</th><th colspan=\"3\" scope=\"colgroup\">Water, L/min, on a texel</th><th "
+        "rowspan=\"2\">Search</th><th colspan=\"3\" scope=\"colgroup\">%s, L/min, on a texel</th>%s<th "
         "rowspan=\"2\">Coverage, %%</th><th rowspan=\"2\">Confirmed, %%</th><th "
         "rowspan=\"2\">Seconds</th><th rowspan=\"2\">CPU seconds</th><th rowspan=\"2\">Cut "
         "short</th></tr>\n<tr><th scope=\"col\" style=\"text-align:right\">3&nbsp;%% finer</th><th scope=\"col\">as "
-        "said</th><th scope=\"col\">3&nbsp;%% coarser</th></tr></thead>\n<tbody>\n");
+        "said</th><th scope=\"col\">3&nbsp;%% coarser</th></tr></thead>\n<tbody>\n",
+        outlay, is_costly(study) ? "<th rowspan=\"2\">Water, L/min</th>" : "");
     for (size_t first = 0; first < study->place_count; first += IN_GROUP)
         add_group(text, study, first);
     sp_text_add(text,
                 "</tbody></table></div>\n<p class=\"note\">Three placements each, on texels 3&nbsp;%% apart: what "
-                "they differ by is the luck of the search, and settings whose waters lie within it are not told "
+                "they differ by is the luck of the search, and settings whose %ss lie within it are not told "
                 "apart. Coverage is by the search's own settings; confirmed is the share of the points, each "
                 "judged for itself at the first impact (bars: twice its standard error). Seconds end when the "
                 "layout is there: forward check and certificate come after and are left out. What was cut short "
-                "reached the limit of the study, not the end of its search.</p></section>\n");
+                "reached the limit of the study, not the end of its search.</p></section>\n",
+                is_costly(study) ? "price" : "water");
 }

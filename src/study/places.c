@@ -98,6 +98,8 @@ static bool search(sp_studying *studying, const sp_evaluator *evaluator, const s
         sp_point_mean sample = sp_sample_of(studying->values, studying->points);
         found->nozzles = proposal->layout->count;
         found->water = proposal->coverage->flow;
+        found->outlay = proposal->outlay;
+        found->costly = proposal->costly;
         found->coverage = proposal->coverage->fraction;
         found->reached = proposal->reached;
         found->confirmed = sample.mean;

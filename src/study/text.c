@@ -67,19 +67,29 @@ static void add_orders(sp_text *text, const sp_study *study)
     }
 }
 
+static void add_water(sp_text *text, double flow)
+{
+    sp_text_add(text, " %11.*f", sp_water_decimals(6e4 * flow), 6e4 * flow);
+}
+
+/* A price, where mounts cost something, is what was minimised. */
 static void add_places(sp_text *text, const sp_study *study)
 {
     enum { WIDTH = 44 };
+    bool costly = study->place_count > 0 && study->places->costly;
     if (study->place_count)
-        sp_text_add(text, "\n%-*s %11s %10s %11s %9s %9s %9s\n", WIDTH, "placements", "water L/min", "coverage %",
-                    "confirmed %", "seconds", "CPU s", "cut short");
+        sp_text_add(text, "\n%-*s %11s%s %10s %11s %9s %9s %9s\n", WIDTH, "placements", "water L/min",
+                    costly ? " price L/min" : "", "coverage %", "confirmed %", "seconds", "CPU s", "cut short");
     for (size_t i = 0; i < study->place_count; i++) {
         const sp_study_place *place = &study->places[i];
         sp_text words = {0};
         sp_words_place(&words, place);
         add_name(text, &words, WIDTH);
-        sp_text_add(text, " %11.*f %10.2f %11.2f %9.2f %9.2f %9s\n", sp_water_decimals(6e4 * place->water),
-                    6e4 * place->water, 100 * place->coverage, 100 * place->confirmed, place->seconds, place->cpu,
+        add_water(text, place->water);
+        if (costly)
+            add_water(text, place->outlay);
+        sp_text_add(text, " %10.2f %11.2f %9.2f %9.2f %9s\n", 100 * place->coverage, 100 * place->confirmed,
+                    place->seconds, place->cpu,
                     place->limited       ? "its limit"
                     : place->ended_early ? "yes"
                                          : "");

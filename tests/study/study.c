@@ -54,6 +54,30 @@ static void the_front_of_a_known_set(void **state)
     sp_study_front(cost, loss, 0, on);
 }
 
+/* What is minimised where mounts cost something stands beside the water, and nowhere else is spoken of. */
+static void prices_of_placements_are_told(void **state)
+{
+    (void)state;
+    sp_study_place place = {
+        .fidelity = sp_setup_default().fidelity, .water = 20 / 6e4, .outlay = 27.5 / 6e4, .costly = true, .seconds = 1};
+    const sp_study found = {.place_count = 1, .places = &place};
+    char *texts[] = {sp_study_text(&found, NULL), sp_study_place_csv(&found, NULL),
+                     sp_study_json(&found, "room.yaml", NULL), sp_study_html(&found, "room.yaml", NULL)};
+    assert_non_null(strstr(texts[0], "water L/min price L/min"));
+    assert_non_null(strstr(texts[0], "20.0        27.5"));
+    assert_non_null(strstr(texts[1], ",water_l_min,price_l_min,coverage,"));
+    assert_non_null(strstr(texts[1], ",20,27.5,"));
+    assert_non_null(strstr(texts[2], "\"price_l_min\": 27.5"));
+    assert_non_null(strstr(texts[3], "Price: water and mounts, L/min"));
+    assert_non_null(strstr(texts[3], "<td>27.5</td>"));
+    place = (sp_study_place){.fidelity = place.fidelity, .water = place.water, .outlay = place.water};
+    char *plain = sp_study_text(&found, NULL);
+    assert_null(strstr(plain, "price"));
+    free(plain);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        free(texts[i]);
+}
+
 /* One cone from the middle of the lid, on texels and with jets that are few. */
 typedef struct {
     job job;
@@ -179,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_of_known_series),
         cmocka_unit_test(the_front_of_a_known_set),
+        cmocka_unit_test(prices_of_placements_are_told),
         cmocka_unit_test(an_order_that_is_not_known_is_a_dash),
         cmocka_unit_test(jets_are_the_reference_where_walls_throw_back),
         cmocka_unit_test(cancelled_it_keeps_what_there_is),
