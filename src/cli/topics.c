@@ -56,7 +56,7 @@ static void write_block(writer *writer, const char *path, const sp_block *block)
 {
     assert(writer->count < BLOCKS);
     writer->done[writer->count++] = block;
-    writer->style->block(writer->to, path, block);
+    writer->style->block(writer->to, writer->count > 1 ? path : NULL, block);
     for (const sp_key *key = block->keys; key->name; key++)
         write_key(writer, key);
     for (const sp_key *key = block->keys; key->name; key++) {
@@ -79,15 +79,14 @@ void cli_write_topic(FILE *to, const cli_topic *topic, const cli_topic_style *st
 
 static void print_block(FILE *to, const char *path, const sp_block *block)
 {
-    bool outermost = !strpbrk(path, ".[") && block->says;
-    if (!outermost)
+    if (path)
         fprintf(to, "\n%s:\n", path);
     if (block->says) {
         char text[TEXT];
         snprintf(text, sizeof text, "%s.", block->says);
         cli_print_wrapped(to, text, 0, 0);
     }
-    if (outermost)
+    if (!path)
         fputc('\n', to);
 }
 

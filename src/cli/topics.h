@@ -19,7 +19,7 @@ const cli_topic *cli_topic_named(const char *name);
 
 /* How a topic is written: its blocks from the outermost on, each once, and after each block its keys. */
 typedef struct {
-    /* `path`: where in the file it stands, "place.mounts[].port"; the topic's name of the outermost. */
+    /* `path`: where in the file it stands, "place.mounts[].port"; NULL of the outermost. */
     void (*block)(FILE *to, const char *path, const sp_block *block);
     /* `form`: what it may be and what is so without it; `text`: what it means. */
     void (*key)(FILE *to, const char *name, const char *form, const char *text);

@@ -14,16 +14,18 @@ static bool has_page(const sp_output *output)
     return has;
 }
 
-/* "wrote FOLDER: report.html, result.json"; NULL where memory runs out. */
+/* "wrote FOLDER: report.html, result.json", without the folder where that is the working directory; NULL where memory
+ * runs out. */
 static char *list_files(const sp_output *output, const char *folder)
 {
+    bool here = !strcmp(folder, ".");
     size_t size = strlen(folder) + sizeof "wrote : " + sizeof page + 2;
     for (size_t i = 0; i < sp_output_count(output); i++)
         size += strlen(sp_output_name(output, i)) + 2;
     char *text = malloc(size);
     if (!text)
         return NULL;
-    char *at = text + sprintf(text, "wrote %s: %s", folder, has_page(output) ? page : "");
+    char *at = text + sprintf(text, "wrote %s%s%s", here ? "" : folder, here ? "" : ": ", has_page(output) ? page : "");
     bool first = !has_page(output);
     for (size_t i = 0; i < sp_output_count(output); i++) {
         const char *name = sp_output_name(output, i);

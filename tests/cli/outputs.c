@@ -37,6 +37,9 @@ static void what_was_written_is_said(void **state)
     result = run_program("atlas room.obj -o said/a.obj --texel 10mm");
     assert_non_null(strstr(result.out, "\nwrote said: a.obj, a-page_0.png\n"));
     forget(&result);
+    result = run_program("atlas room.obj -o a.obj --texel 10mm");
+    assert_non_null(strstr(result.out, "\nwrote a.obj, a-page_0.png\n"));
+    forget(&result);
     result = run_program("simulate room.yaml " COARSE " --json");
     assert_string_equal(result.err, "");
     forget(&result);

@@ -34,6 +34,9 @@ static void help_goes_to_standard_output(void **state)
     assert_non_null(strstr(result.out, "-q, --quiet"));
     assert_null(strstr(result.out, "--rays"));
     forget(&result);
+    result = run_program("help result");
+    assert_non_null(strstr(result.out, "\n\ncertificate:\nProved of layouts"));
+    forget(&result);
 }
 
 static void options_stand_anywhere(void **state)

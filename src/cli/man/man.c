@@ -68,7 +68,7 @@ static void print_program(FILE *to, const char *date)
 
 static void print_block(FILE *to, const char *path, const sp_block *block)
 {
-    if (strpbrk(path, ".[") || !block->says)
+    if (path)
         roff_subsection(to, path);
     if (block->says) {
         char text[1200];
