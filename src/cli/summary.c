@@ -183,12 +183,13 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
         if (!film->known)
             continue;
         if (!told)
-            printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
-                   "astray L/min", "per girth L/min/m");
+            printf("\n%-*s %12s %16s %16s %16s %16s %22s\n", width, "film", "alone m2", "arrives L/min", "drains L/min",
+                   "stands L/min", "astray L/min", "per girth L/min/m");
         told = true;
         char alone[CLI_AMOUNT];
         area_text(&figures[i], film->area, 3, alone);
         printf("%-*s %12s", width, result->designs[i].name, alone);
+        print_water(16, film->arriving, figures[i].flow);
         print_water(16, film->left, figures[i].flow);
         print_water(16, film->held, figures[i].flow);
         print_water(16, film->astray, figures[i].flow);

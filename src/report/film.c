@@ -8,6 +8,10 @@ static double covered(const sp_figures *f)
 {
     return f->film.area;
 }
+static double arriving(const sp_figures *f)
+{
+    return 6e4 * f->film.arriving;
+}
 static double drained(const sp_figures *f)
 {
     return 6e4 * f->film.left;
@@ -73,8 +77,12 @@ static void add_hollows(const sp_page *page, sp_text *text, size_t design)
     const int digits = sp_place_decimals(&page->figures[design], 3);
     for (size_t i = 0; i < count; i++) {
         sp_vec3 place = sp_setup_outside(sp_evaluator_setup(evaluator), hollows[i].place);
-        sp_text_add(text, "<tr><th scope=\"row\">%.*f, %.*f, %.*f</th><td>", digits, place.x, digits, place.y, digits,
-                    place.z);
+        const double along[3] = {place.x, place.y, place.z};
+        for (int k = 0; k < 3; k++) {
+            sp_text_add(text, k ? ", " : "<tr><th scope=\"row\">");
+            sp_markup_decimals(text, along[k], digits);
+        }
+        sp_text_add(text, "</th><td>");
         sp_markup_decimals(text, hollows[i].area, sp_area_decimals(&page->figures[design], 4));
         sp_text_add(text, "</td><td>%s</td></tr>\n", hollows[i].drains ? "over its rim" : "not at all");
     }
@@ -88,6 +96,7 @@ static void add_table(const sp_page *page, sp_text *text, columns shown)
     sp_page_columns(page, text, shown.first, shown.end);
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     add_row(page, text, shown, "Covered by film alone", "m\xc2\xb2", area_decimals, covered);
+    add_row(page, text, shown, "Arrives on wet surface", "L/min", water_decimals, arriving);
     add_row(page, text, shown, "Drains from the geometry", "L/min", water_decimals, drained);
     add_row(page, text, shown, "Stands where it cannot drain", "L/min", water_decimals, held);
     add_row(page, text, shown, "Drips on dry surface", "L/min", water_decimals, astray);
@@ -106,8 +115,11 @@ void sp_page_film(const sp_page *page, sp_text *text)
     sp_text_add(text, "<section id=\"film\"><h2>What runs down the walls</h2>\n");
     for (size_t first = 0; first < page->result->design_count; first = sp_page_fold(page, first))
         add_table(page, text, (columns){first, sp_page_fold(page, first)});
-    sp_text_add(text, "<p>The last row is the measure of rules of thumb, a mean around the "
-                      "walls; what the criterion asks for is what runs down at each place.</p>\n");
+    sp_text_add(text,
+                "<p>What arrives is summed up over texels, each judged at one point, and what lands is counted by "
+                "single jets: the two differ by what texels do not tell, and by surface that is wet and not to "
+                "be cleaned. The last row is the measure of rules of thumb, a mean around the "
+                "walls; what the criterion asks for is what runs down at each place.</p>\n");
     const sp_evaluator *before = NULL;
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_evaluator *evaluator = page->result->designs[i].evaluator;

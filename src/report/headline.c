@@ -85,15 +85,32 @@ static void add_attainable(const sp_figures *proposed, const sp_proposal *propos
     }
 }
 
-/* The coverage asked for, and why the proposal falls short of it. */
-static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
+/* Within which limits it was asked for, as far as there are any. */
+static void add_limits(const sp_design *design, const sp_proposal *proposal, sp_text *text)
 {
+    char limits[SP_LIMITS_TEXT];
+    bool ports = false;
+    sp_limits_clause(proposal, limits);
+    for (size_t i = 0; i < design->mount_count; ++i)
+        ports = ports || design->mounts[i].kind == SP_MOUNT_PORT;
+    if (limits[0])
+        sp_text_add(text, " with no more than %s", limits);
+    if (ports)
+        sp_text_add(text, "%s one nozzle in a port at most", limits[0] ? ", and" : " with");
+}
+
+/* The coverage asked for, and why the proposal falls short of it. */
+static void add_shortfall(const sp_page *page, const sp_proposal *proposal, sp_text *text)
+{
+    const sp_figures *proposed = &page->figures[page->main];
     double percent = 100 / proposed->clean_area;
     sp_text_add(text, "<p class=\"warning\"><strong>The coverage asked for is not reached.</strong> ");
     sp_markup_decimals(text, percent * proposal->asked_area, 1);
     sp_text_add(text, "&nbsp;%% of the surface to be cleaned (");
     sp_markup_significant(text, proposal->asked_area, 4);
-    sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for within the limits on nozzles, water and ports; ");
+    sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for");
+    add_limits(&page->result->designs[page->main], proposal, text);
+    sp_text_add(text, "; ");
     if (proposal->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0))
         add_attainable(proposed, proposal, text);
     sp_text_add(text, "the proposal covers ");
@@ -157,8 +174,9 @@ static void add_lacking(const sp_proposal *proposal, sp_text *text)
     sp_text_add(text, "&nbsp;L/min.</p>\n");
 }
 
-static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
+static void add_warnings(const sp_page *page, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
+    const sp_figures *proposed = &page->figures[page->main];
     if (proposal->interrupted) {
         sp_text_add(text, "<p class=\"warning\"><strong>Cut short.</strong> The search was stopped before its end");
         sp_page_cut(text, proposal);
@@ -186,7 +204,7 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
                     "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
                     "mounting point that takes it, covers anything by the criteria.</p>\n");
     else
-        add_shortfall(proposed, proposal, text);
+        add_shortfall(page, proposal, text);
 }
 
 /* Where the proposal does not beat what it is compared with, and one reason why that can be. */
@@ -225,7 +243,7 @@ void sp_page_headline(const sp_page *page, sp_text *text)
     sp_page_gain(page, text);
     add_own_better(page, text);
     if (page->result->proposal)
-        add_warnings(&page->figures[page->main], page->result->proposal,
+        add_warnings(page, page->result->proposal,
                      sp_evaluator_fidelity(page->result->designs[page->main].evaluator)->accuracy, text);
     add_doubtful_alternatives(page, text);
     add_cards(page, text);

@@ -30,6 +30,28 @@ static void film_runs_down_the_walls(void **state)
     json_decref(read);
 }
 
+/* What arrives is not what lands, and stands beside what becomes of it; and nothing lies at -0.000. */
+static void what_arrives_is_told(void **state)
+{
+    (void)state;
+    write_room_with("sunk.yaml", "room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncriterion: {flux: 1 L/min/m2}",
+                    "room.obj\n    translate: [0 m, 0 m, -1e-6 m]\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncriterion: {film: 2 "
+                    "L/min/m}");
+    json_t *object = expect_json("simulate sunk.yaml -o sunk --json " COARSE, 0);
+    double arriving = number(json_object_get(layout_named(object, "manual"), "film"), "arriving_l_min");
+    char row[512], cell[40];
+    row_of("sunk", "<th scope=\"row\">Arrives on wet surface", row);
+    snprintf(cell, sizeof cell, ">%.1f</td>", arriving);
+    assert_non_null(strstr(row, cell));
+    json_decref(object);
+    char *page = read_file("sunk/report.html", NULL);
+    assert_non_null(strstr(page, ", 0.000</th><td>1.0000</td><td>not at all</td>"));
+    free(page);
+    outcome run = run_program("simulate sunk.yaml " COARSE);
+    assert_non_null(strstr(run.out, "alone m2    arrives L/min     drains L/min"));
+    forget(&run);
+}
+
 static json_t *account_of(const json_t *result)
 {
     return json_object_get(json_object_get(result, "geometry"), "account");
@@ -152,6 +174,7 @@ int main(void)
         cmocka_unit_test(film_runs_down_the_walls), cmocka_unit_test(cracks_are_told_of),
         cmocka_unit_test(film_is_placed_for),       cmocka_unit_test(film_is_refused_where_it_cannot_be_counted),
         cmocka_unit_test(drag_is_simulated),        cmocka_unit_test(drag_is_placed),
+        cmocka_unit_test(what_arrives_is_told),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

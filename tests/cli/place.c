@@ -194,6 +194,41 @@ static void limits_are_named_where_they_bind(void **state)
     free(report);
 }
 
+/* What the page says of them where the coverage asked for is not reached. */
+static void expect_limits(const char *settings, const char *expected)
+{
+    char line[256];
+    snprintf(line, sizeof line, "place limited.yaml " COARSE " --set place.refine=none -o limited --quiet %s",
+             settings);
+    outcome done = run_program(line);
+    assert_int_equal(done.status, 4);
+    forget(&done);
+    char *page = read_file("limited/report.html", NULL);
+    const char *asked = strstr(page, ") were asked for");
+    assert_non_null(asked);
+    assert_memory_equal(asked, expected, strlen(expected));
+    free(page);
+}
+
+static void limits_that_there_are_not_are_not_named(void **state)
+{
+    (void)state;
+    char scene[sizeof room_yaml + 256];
+    const char *limit = strstr(room_yaml, "  max_nozzles");
+    snprintf(scene, sizeof scene,
+             "%.*s  pressure: 2 bar\n  types: [cone]\n  mounts:\n    - box: {min: [0.5, 0.5, 0.8], max: [0.5, 0.5, "
+             "0.8], spacing: 1 m}\n",
+             (int)(limit - room_yaml), room_yaml);
+    write_file("limited.yaml", scene);
+    expect_limits("", ") were asked for; ");
+    expect_limits("--set place.max_nozzles=2", ") were asked for with no more than 2 nozzles (max_nozzles); ");
+    strcat(scene, "    - port: {name: P1, position: [0.3 m, 0.3 m, 0.9 m], axis: [0, 0, -1]}\n");
+    write_file("limited.yaml", scene);
+    expect_limits("", ") were asked for with one nozzle in a port at most; ");
+    expect_limits("--set place.max_nozzles=2",
+                  ") were asked for with no more than 2 nozzles (max_nozzles), and one nozzle in a port at most; ");
+}
+
 /* More is asked for than what arrives so steeply allows: what is out of reach comes first, the proposal aims at the
  * share asked for of the rest, and place exits 4. */
 static void what_cannot_be_reached_is_said_first(void **state)
@@ -283,6 +318,7 @@ int main(void)
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),
         cmocka_unit_test(limits_are_named_where_they_bind),
+        cmocka_unit_test(limits_that_there_are_not_are_not_named),
         cmocka_unit_test(what_cannot_be_reached_is_said_first),
         cmocka_unit_test(what_can_be_reached_is_the_target),
         cmocka_unit_test(a_layout_has_one_coverage_wherever_it_is_read),
