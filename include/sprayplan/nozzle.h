@@ -165,6 +165,11 @@ SP_API bool sp_nozzles_share_edges(const sp_nozzle *a, const sp_nozzle *b, const
 /* Whether another nozzle of the layout shares nozzle i's edges and sprays more, or as much and comes before it: where
  * nozzle i meets a criterion alone, so does that one. */
 SP_API bool sp_layout_repeats(const sp_layout *layout, size_t i, const sp_fluid *liquid);
+/* The first nozzle before nozzle i whose body its own overlaps, bodies being balls of their types' diameters about the
+ * nozzles' positions; of types that tell none, one in its place up to 1e-6 m. SIZE_MAX for none. `text`: that they
+ * overlap, as a clause of plain text, "P2 and P5 stand in one place: their bodies overlap"; "" for none. */
+#define SP_OVERLAP_TEXT 240
+SP_API size_t sp_layout_overlap(const sp_layout *layout, size_t i, char text[SP_OVERLAP_TEXT]);
 /* Σ flow, m³/s. */
 SP_API double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
 

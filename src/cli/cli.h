@@ -178,6 +178,10 @@ bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user,
 /* ports.c: tells of nozzles of the scene's own that stand in a port against its types, tilt or depths, or where another
  * does, and of ports that are there twice. */
 void cli_tell_port_breaches(const cli_scene *opened, cli_teller *tell, void *user);
+/* long_texel.c: whether the texel that is set is too long for patches to follow the surface; that, and what may be
+ * meant, as a sentence. */
+enum { CLI_LONG_TEXEL = 240 };
+bool cli_tell_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL]);
 /* A layout with its coverage, and the scene's mounts. */
 sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluator *evaluator, const sp_layout *layout,
                      const sp_coverage *coverage);

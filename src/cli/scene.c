@@ -1,5 +1,6 @@
 /* A scene and its evaluator, opened with the command line's overrides. */
 #include "cli.h"
+#include "size.h"
 
 #include <math.h>
 
@@ -28,6 +29,7 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
     cli_clock_stage(clock, "atlas");
     if (!opened->evaluator) {
         sp_scene_locate(opened->scene, error);
+        cli_size_ask_after(opened->scene, error);
         cli_scene_close(opened);
     }
     return opened->evaluator != NULL;

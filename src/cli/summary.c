@@ -126,6 +126,17 @@ static void print_setting(int setting, const sp_evaluator *evaluator, const char
         printf("auto: %s\n", why);
 }
 
+/* Where texels are set the scene may also leave them to auto. */
+static void print_missed(const sp_design *design)
+{
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(design->evaluator);
+    bool set = sp_evaluator_setup(design->evaluator)->fidelity.texel > 0;
+    printf("warning: the coverage of %s does not keep the accuracy of %.3g %% that was asked for; texels shorter than "
+           "%.3g mm%s%s may keep it\n",
+           design->name, 100 * fidelity->accuracy, 1e3 * fidelity->texel, set ? ", or `texel: auto`," : "",
+           fidelity->method == SP_METHOD_FORWARD ? " with more jets" : "");
+}
+
 /* What auto took and why, once for every evaluator, and what does not keep the accuracy. */
 static void print_choice(const sp_result *result, const sp_figures *figures)
 {
@@ -134,15 +145,17 @@ static void print_choice(const sp_result *result, const sp_figures *figures)
         if (!evaluator)
             continue;
         bool first = is_first_on(result, i);
+        char long_texel[CLI_LONG_TEXEL];
         const sp_choice *choice = sp_evaluator_choice(evaluator);
         double accuracy = sp_evaluator_fidelity(evaluator)->accuracy, error = figures[i].error_estimate;
         const char *why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
         for (int k = 0; k < 5 && first; k++)
             if (why[k][0])
                 print_setting(k, evaluator, why[k]);
+        if (first && cli_tell_long_texel(sp_evaluator_setup(evaluator), long_texel))
+            printf("warning: %s\n", long_texel);
         if (error > accuracy || (!isfinite(error) && first && choice->missed))
-            printf("warning: the coverage of %s does not keep the accuracy of %.3g %% that was asked for\n",
-                   result->designs[i].name, 100 * accuracy);
+            print_missed(&result->designs[i]);
     }
 }
 

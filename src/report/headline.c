@@ -140,7 +140,9 @@ static void add_error(const sp_figures *proposed, double accuracy, sp_text *text
     sp_markup_significant(text, 100 * proposed->error_estimate, 2);
     sp_text_add(text, "&nbsp;points, more than the ");
     sp_markup_significant(text, 100 * accuracy, 2);
-    sp_text_add(text, "&nbsp;%% that were asked for.</p>\n");
+    sp_text_add(text, "&nbsp;%% that were asked for. Texels shorter than ");
+    sp_markup_significant(text, 1e3 * proposed->texel, 3);
+    sp_text_add(text, "&nbsp;mm (<code>simulate: {texel: ..}</code>) may keep it.</p>\n");
 }
 
 /* What must not be overlooked of the alternatives that are not proposed. */

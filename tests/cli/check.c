@@ -47,6 +47,43 @@ static void check_tells_how_large_everything_is(void **state)
     forget(&result);
 }
 
+/* Without its unit, so that it is in m; as long as a tenth of the diagonal it is not too long. */
+static void texels_that_are_too_long_are_warned_of(void **state)
+{
+    (void)state;
+    static const char said[] =
+        "texel: 60 m is more than a tenth of the geometry's diagonal of 1.732 m, so that patches "
+        "cannot follow its surface: 60 alone is 60 m; did you mean 60 mm?";
+    json_t *object = expect_json("check room.yaml --set simulate.texel=60 --json", 0);
+    json_t *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), 1);
+    assert_string_equal(json_string_value(json_array_get(warnings, 0)), said);
+    json_decref(object);
+    outcome result = run_program("simulate room.yaml --set simulate.texel=60");
+    assert_non_null(strstr(result.out, said));
+    forget(&result);
+    object = expect_json("check room.yaml --set simulate.texel=173mm --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "warnings")), 0);
+    json_decref(object);
+}
+
+/* With a texel that is meant for another unit there is nothing to check, but the question stays. */
+static void the_unit_is_asked_for_behind_an_error_of_the_texel(void **state)
+{
+    (void)state;
+    write_room_with("kilo.yaml", "file: room.obj", "{file: room.obj, unit: km}");
+    outcome result = run_program("check kilo.yaml --set simulate.texel=25mm");
+    assert_int_equal(result.status, 3);
+    assert_non_null(strstr(result.err, "texel: 0.025 m found, too small for a surface of"));
+    assert_non_null(
+        strstr(result.err, "; geometry: file 0 is 1000 m x 1000 m x 1000 m: is the unit m (1 m x 1 m x 1 m)"));
+    forget(&result);
+    result = run_program("check room.yaml --set simulate.texel=1um");
+    assert_int_equal(result.status, 3);
+    assert_null(strstr(result.err, "is the unit"));
+    forget(&result);
+}
+
 static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **state)
 {
     (void)state;
@@ -118,6 +155,43 @@ static void check_tells_of_nozzles_against_their_ports(void **state)
     json_decref(object);
 }
 
+/* In one place, nearer than their bodies allow, and as near as these allow. */
+static void bodies_that_overlap_are_told(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {"N1 and beside stand in one place: their bodies overlap",
+                                           "wide and near stand 49 mm apart: their bodies of 60 mm and 40 mm overlap"};
+    write_file("bodies.yaml",
+               "nozzles:\n"
+               "  - {name: cone, pattern: full_cone, angle: 120 deg, flow: 12 L/min, at: 2 bar}\n"
+               "  - {name: thin, pattern: full_cone, angle: 90 deg, flow: 6 L/min, at: 2 bar, body: 40 mm}\n"
+               "  - {name: thick, pattern: full_cone, angle: 90 deg, flow: 6 L/min, at: 2 bar, body: 60 mm}\n");
+    write_file("crowded.yaml",
+               "geometry:\n"
+               "  - file: room.obj\n"
+               "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+               "catalogue: bodies.yaml\n"
+               "nozzles:\n"
+               "  - {name: N1, type: cone, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+               "  - {name: beside, type: thin, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 1, 0], pressure: 2 bar}\n"
+               "  - {name: wide, type: thick, position: [0.2 m, 0.5 m, 0.9 m], axis: [0, 1, 0], pressure: 2 bar}\n"
+               "  - {name: near, type: thin, position: [0.249 m, 0.5 m, 0.9 m], axis: [0, 1, 0], pressure: 2 bar}\n"
+               "  - {name: clear, type: thin, position: [0.15 m, 0.5 m, 0.9 m], axis: [0, 1, 0], pressure: 2 bar}\n");
+    json_t *object = expect_json("check crowded.yaml --json", 0);
+    json_t *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), 2);
+    outcome done = run_program("simulate crowded.yaml -o crowded --quiet " COARSE);
+    assert_int_equal(done.status, 0);
+    forget(&done);
+    char *page = read_file("crowded/report.html", NULL), told[512];
+    for (size_t i = 0; i < 2; i++)
+        assert_non_null(strstr(json_string_value(json_array_get(warnings, i)), expected[i]));
+    snprintf(told, sizeof told, "</table></div>\n<p class=\"warning\">%s; %s.</p>", expected[0], expected[1]);
+    assert_non_null(strstr(page, told));
+    free(page);
+    json_decref(object);
+}
+
 /* The second of three is the first again, the third is turned. */
 static void check_tells_of_nozzles_that_are_there_twice(void **state)
 {
@@ -129,8 +203,10 @@ static void check_tells_of_nozzles_that_are_there_twice(void **state)
         "  - {name: other, type: cone, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -1], roll: 5 deg, "
         "pressure: 2 bar}\n");
     json_t *object = expect_json("check twice.yaml --json", 0), *warnings = json_object_get(object, "warnings");
-    assert_int_equal(json_array_size(warnings), 1);
+    assert_int_equal(json_array_size(warnings), 2);
     assert_non_null(strstr(json_string_value(json_array_get(warnings, 0)), "nozzle \"again\""));
+    assert_string_equal(json_string_value(json_array_get(warnings, 1)),
+                        "nozzles: N1 and other stand in one place: their bodies overlap");
     json_decref(object);
 }
 
@@ -197,6 +273,9 @@ int main(void)
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),
+        cmocka_unit_test(bodies_that_overlap_are_told),
+        cmocka_unit_test(texels_that_are_too_long_are_warned_of),
+        cmocka_unit_test(the_unit_is_asked_for_behind_an_error_of_the_texel),
         cmocka_unit_test(check_tells_of_nozzles_that_are_there_twice),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(check_says_where_liquid_stands),

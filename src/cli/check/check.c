@@ -43,27 +43,11 @@ static void tell_boxes(cli_findings *found)
     }
 }
 
-static bool measure_files(cli_findings *found, sp_error *error)
-{
-    const sp_mesh *mesh = cli_findings_setup(found)->mesh;
-    found->sizes = calloc(mesh->part_count + 1, sizeof *found->sizes);
-    if (!found->sizes)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < mesh->part_count;) {
-        uint32_t geometry = mesh->parts[i].geometry;
-        cli_box box = found->part_box[i];
-        for (; i < mesh->part_count && mesh->parts[i].geometry == geometry; i++)
-            box = cli_box_join(box, found->part_box[i]);
-        found->sizes[found->size_count++] = cli_size_of(box, sp_scene_file_unit(found->opened->scene, geometry));
-    }
-    return true;
-}
-
 static bool examine(const cli_options *options, cli_findings *found, sp_error *error)
 {
     static const char *const files[] = {"wet.png", NULL};
     if (!cli_output_ready(options, found->opened->scene, files, error) || !measure_parts(found, error) ||
-        !measure_files(found, error) ||
+        !(found->sizes = cli_sizes_of(found->opened->scene, found->part_box, &found->size_count, error)) ||
         !sp_evaluator_beyond_caps(found->opened->evaluator, &found->beyond_caps, error) ||
         !sp_mesh_diagnose(cli_findings_setup(found)->mesh, &found->mesh, error))
         return false;

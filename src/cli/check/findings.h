@@ -2,12 +2,11 @@
 #ifndef CLI_FINDINGS_H
 #define CLI_FINDINGS_H
 
-#include "boxes.h"
 #include "flaws.h"
 #include "lengths.h"
 #include "repair.h"
-#include "size.h"
 #include "../cli.h"
+#include "../size.h"
 
 enum { CLI_WARNINGS = 100 };
 

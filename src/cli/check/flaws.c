@@ -1,6 +1,6 @@
 #include "flaws.h"
 
-#include "boxes.h"
+#include "../boxes.h"
 #include "lengths.h"
 
 #include <stddef.h>

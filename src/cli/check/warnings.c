@@ -59,6 +59,13 @@ static void warn_of_size(cli_findings *found)
     }
 }
 
+static void warn_of_texel(cli_findings *found)
+{
+    char text[CLI_LONG_TEXEL];
+    if (cli_tell_long_texel(sp_scene_setup(found->opened->scene), text))
+        warn(found, "%s", text);
+}
+
 /* What a CAD file says that cannot be, and bodies that their triangles do not give. */
 static void warn_of_cad(cli_findings *found)
 {
@@ -146,6 +153,24 @@ static bool is_doubled(const sp_layout *layout, size_t i)
     return earlier < i;
 }
 
+/* Of the port that holds both the breach is told. */
+static bool share_port(const cli_findings *found, const sp_nozzle *a, const sp_nozzle *b)
+{
+    const sp_setup *setup = sp_scene_setup(found->opened->scene);
+    const sp_place_options place = sp_scene_place_options(found->opened->scene);
+    size_t mount = sp_mount_at(setup, place.mounts, place.mount_count, a->position);
+    return mount != SIZE_MAX && place.mounts[mount].kind == SP_MOUNT_PORT &&
+           sp_mount_at(setup, &place.mounts[mount], 1, b->position) == 0;
+}
+
+static void warn_of_overlap(cli_findings *found, const sp_layout *layout, size_t i)
+{
+    char text[SP_OVERLAP_TEXT];
+    size_t other = sp_layout_overlap(layout, i, text);
+    if (other != SIZE_MAX && !share_port(found, &layout->nozzles[other], &layout->nozzles[i]))
+        warn(found, "nozzles: %s", text);
+}
+
 static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -156,6 +181,8 @@ static bool warn_of_nozzles(cli_findings *found, sp_error *failure)
         if (is_doubled(layout, i))
             warn(found, "nozzle \"%s\": one before it is of the same type, in the same place and aimed alike",
                  layout->nozzles[i].name);
+        else
+            warn_of_overlap(found, layout, i);
         if (error.kind == SP_ERROR_MEMORY)
             return sp_fail_memory(failure);
     }
@@ -171,6 +198,7 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
 {
     warn_of_mesh(found);
     warn_of_size(found);
+    warn_of_texel(found);
     warn_of_cad(found);
     warn_of_cavity(found);
     warn_of_sides(found);

@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* m, the longest edge of a file's box: vessels, machines and what stands in them lie between. */
 #define SMALLEST 0.01
@@ -48,6 +50,43 @@ cli_size cli_size_of(cli_box box, double unit)
             put(&size, units[i].name, extent);
     }
     return size;
+}
+
+cli_size *cli_sizes_of(const sp_scene *scene, const cli_box *part_box, size_t *count, sp_error *error)
+{
+    const sp_mesh *mesh = sp_scene_setup(scene)->mesh;
+    cli_size *sizes = calloc(mesh->part_count + 1, sizeof *sizes);
+    *count = 0;
+    if (!sizes) {
+        sp_fail_memory(error);
+        return NULL;
+    }
+    for (size_t i = 0; i < mesh->part_count;) {
+        uint32_t geometry = mesh->parts[i].geometry;
+        cli_box box = part_box[i];
+        for (; i < mesh->part_count && mesh->parts[i].geometry == geometry; i++)
+            box = cli_box_join(box, part_box[i]);
+        sizes[(*count)++] = cli_size_of(box, sp_scene_file_unit(scene, geometry));
+    }
+    return sizes;
+}
+
+void cli_size_ask_after(const sp_scene *scene, sp_error *error)
+{
+    if (error->kind != SP_ERROR_INPUT || strncmp(error->message, "texel: ", strlen("texel: ")) != 0)
+        return;
+    size_t count = 0;
+    cli_box *boxes = cli_part_boxes(sp_scene_setup(scene)->mesh);
+    cli_size *sizes = boxes ? cli_sizes_of(scene, boxes, &count, NULL) : NULL;
+    for (size_t i = 0; i < count; i++) {
+        size_t used = strlen(error->message);
+        if (sizes[i].plausible || used + 2 >= sizeof error->message)
+            continue;
+        strcpy(error->message + used, "; ");
+        cli_size_ask(&sizes[i], i, error->message + used + 2, sizeof error->message - used - 2);
+    }
+    free(sizes);
+    free(boxes);
 }
 
 void cli_size_ask(const cli_size *size, unsigned long geometry, char *text, size_t length)

@@ -4,6 +4,8 @@
 
 #include "boxes.h"
 
+#include <sprayplan/scene.h>
+
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,6 +21,10 @@ typedef struct {
 } cli_size;
 
 cli_size cli_size_of(cli_box box, double unit);
+/* Of each geometry file of a scene, by the boxes of its parts: [*count], malloc'd; NULL where memory runs out. */
+cli_size *cli_sizes_of(const sp_scene *scene, const cli_box *part_box, size_t *count, sp_error *error);
+/* An error about the texel may come of a wrong unit: then the question stands behind it. */
+void cli_size_ask_after(const sp_scene *scene, sp_error *error);
 /* A question for who wrote the scene. */
 void cli_size_ask(const cli_size *size, unsigned long geometry, char *text, size_t length);
 json_t *cli_size_json(const cli_size *size);
