@@ -27,19 +27,31 @@ static bool is_better(sp_objective objective, rival a, rival b)
     int ratio = order(x * b.outlay, y * a.outlay, SP_TIE * y * a.outlay), merit = -outlay;
     if (a.reaches != b.reaches)
         return a.reaches;
-    if (!a.reaches || objective == SP_OBJECTIVE_MAX_COVERAGE)
+    if (objective == SP_OBJECTIVE_MAX_COVERAGE)
         merit = coverage;
+    else if (!a.reaches)
+        merit = order(x, y, SP_COVERAGE_TOLD);
     else if (objective == SP_OBJECTIVE_AREA_PER_WATER)
         merit = ratio;
     merit = merit ? merit : -outlay;
     return (merit ? merit : coverage) > 0;
 }
 
+/* Whether proposal i is better than proposal k. */
+static bool beats(const sp_proposal *const *proposals, size_t i, size_t k)
+{
+    return is_better(proposals[i]->objective, rival_of(proposals[i]), rival_of(proposals[k]));
+}
+
 size_t sp_place_best(const sp_proposal *const *proposals, size_t count)
 {
-    size_t best = 0;
+    size_t most = 0;
     for (size_t i = 1; i < count; i++)
-        best = is_better(proposals[i]->objective, rival_of(proposals[i]), rival_of(proposals[best])) ? i : best;
+        most = proposals[i]->coverage->fraction > proposals[most]->coverage->fraction + SP_TIE ? i : most;
+    /* what covers a little less is held against the one that covers most, so that no chain of them leads far below */
+    size_t best = most;
+    for (size_t i = 0; i < count; i++)
+        best = beats(proposals, i, best) && !beats(proposals, most, i) ? i : best;
     return best;
 }
 

@@ -252,11 +252,12 @@ static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_err
     return sp_count_by_all_jets(front, search, proposal->target_area, error);
 }
 
-/* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
-static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
+/* The best in the end as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
+static bool propose(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_search *search = &placement->search;
-    if (!write_down(placement, &proposal->layout, &proposal->coverage, error) ||
+    if (!sp_front_settle(&placement->front, search, error) ||
+        !write_down(placement, &proposal->layout, &proposal->coverage, error) ||
         !(proposal->costs = list_costs(placement, error)))
         return false;
     proposal->costly = search->costly;

@@ -48,11 +48,16 @@ SP_API size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t 
 SP_API bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
                             sp_error *error);
 
+/* As a fraction of the surface to be cleaned: coverages are told in such steps, and where none reaches what was asked
+ * for, layouts that cover so much less than the most count as covering as much. */
+#define SP_COVERAGE_TOLD 1e-3
+
 /* A layout's outlay is its water and what the mounts of its nozzles cost, but for kept ones, which are there already;
  * its water alone where no mount costs anything. */
 typedef enum {
-    SP_OBJECTIVE_AREA_PER_WATER, /* highest ratio of area to outlay among layouts that reach the coverage asked for */
-    SP_OBJECTIVE_MIN_WATER,      /* least outlay that reaches it */
+    SP_OBJECTIVE_AREA_PER_WATER, /* highest ratio of area to outlay among layouts that reach the coverage asked for;
+                                  * where none does, least outlay within SP_COVERAGE_TOLD of the most covered */
+    SP_OBJECTIVE_MIN_WATER,      /* least outlay that reaches it; where none does as above */
     SP_OBJECTIVE_MAX_COVERAGE,   /* most coverage within max_nozzles and max_water; of equal ones least outlay */
 } sp_objective;
 
@@ -237,7 +242,8 @@ SP_API void sp_proposal_destroy(sp_proposal *proposal);
 
 /* Which of proposals [count >= 1] with one objective, for the same surface and coverage, is best by it: of those that
  * cover what was asked for the one of most area per outlay, of least outlay or of most coverage; where none does, the
- * one that covers most. Of equal ones that of less outlay, of these that of more coverage, then the first. */
+ * one that covers most, or of those within SP_COVERAGE_TOLD of it where the objective saves that of least outlay. Of
+ * equal ones that of less outlay, of these that of more coverage, then the first. */
 SP_API size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
 /* By the same order, whether a layout that no search found, such as the engineer's own, is better than the proposal:
  * its coverage, on the same evaluator, and its outlay. Limits on number and water are not looked at. */

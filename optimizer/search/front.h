@@ -64,6 +64,10 @@ sp_front sp_front_anew(sp_front *front);
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
 /* Keeps a copy of the best, with the area (m²) that it covers as the scene says, among what is counted. */
 bool sp_front_count_best(sp_front *front, const sp_search *search, double area, sp_error *error);
+/* In the end, where nothing reaches the target and the objective saves: of the layouts that cover all but
+ * SP_COVERAGE_TOLD as much as the best, that of least outlay becomes the best. Before, the best is to be the one that
+ * covers most, from which the search climbs on. */
+bool sp_front_settle(sp_front *front, const sp_search *search, sp_error *error);
 /* For another target from now on; the best becomes that by it. */
 bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_error *error);
 /* Measures the layout, notes it, and keeps a copy where it is the best yet. *point may be NULL. */

@@ -34,7 +34,8 @@ static const sp_key place_keys[] = {
      .standard = "area_per_water",
      .says = "What the best layout is: most covered area per water among those that reach `coverage`; least water that "
              "reaches it; "
-             "most coverage within the limits"},
+             "most coverage within the limits. Where none reaches it the first two take the least water that covers "
+             "within a tenth of a point of the most found"},
     {.name = "coverage",
      .kind = SP_KEY_QUANTITY,
      .dimension = &sp_share_unit,

@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#define ROUND_OFF 1e-9 /* as a fraction: coverages that differ by less are equal */
+
 size_t sp_result_proposed(const sp_result *result)
 {
     for (size_t i = 0; result->proposal && i < result->design_count; ++i)
@@ -36,6 +38,16 @@ bool sp_result_is_costly(const sp_result *result)
     return any;
 }
 
+/* Whether no other alternative covers more. */
+static bool covers_most(const sp_result *result)
+{
+    for (size_t i = 0; i < result->design_count; ++i)
+        if (result->designs[i].alternative &&
+            result->designs[i].coverage->fraction > result->proposal->coverage->fraction + ROUND_OFF)
+            return false;
+    return true;
+}
+
 void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
 {
     static const char *const best[] = {[SP_OBJECTIVE_AREA_PER_WATER] = "cleans most area per water",
@@ -52,6 +64,10 @@ void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
     if (proposal->coverage->covered_area >= proposal->asked_area)
         snprintf(text, SP_CHOICE_TEXT, "of those that cover the %.4g %% asked for, it %s", asked,
                  (sp_result_is_costly(result) ? cheapest : best)[proposal->objective]);
-    else
+    else if (covers_most(result))
         snprintf(text, SP_CHOICE_TEXT, "none covers the %.4g %% asked for, and of all it covers most", asked);
+    else
+        snprintf(text, SP_CHOICE_TEXT,
+                 "none covers the %.4g %% asked for; it %s within %.1g points of the most covered", asked,
+                 sp_result_is_costly(result) ? "has the least price" : "needs least water", 100 * SP_COVERAGE_TOLD);
 }

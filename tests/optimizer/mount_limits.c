@@ -186,6 +186,7 @@ static void the_best_is_chosen_by_the_objective(void **state)
         {{9.5, 9.9, 9.2}, {20, 30, 19.5}, {0, 2, 1}}, /* all reach it */
         {{8.9, 9.9, 9.1}, {1, 30, 29}, {1, 2, 1}},    /* what does not is left behind, however thrifty */
         {{8.9, 8.95, 8}, {1, 30, 0.5}, {1, 1, 1}},    /* none does: most coverage */
+        {{8.985, 8.99, 8}, {1, 30, 0.5}, {0, 0, 1}},  /* to a tenth of a point, where water counts */
         {{9.5, 9.5, 9.5}, {20, 19, 19}, {1, 1, 1}},   /* equal coverage: less water, then the first */
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
@@ -206,6 +207,23 @@ static void the_best_is_chosen_by_the_objective(void **state)
         }
 }
 
+/* Each covers all but as much as the next better one, with less water: the last is too far from the first. */
+static void little_by_little_nothing_is_given_away(void **state)
+{
+    (void)state;
+    static const double covered[] = {8.974, 8.99, 8.982}, water[] = {10, 30, 20};
+    sp_coverage coverages[3];
+    sp_proposal proposals[3];
+    for (size_t i = 0; i < 3; i++)
+        proposals[i] = proposal_of(&coverages[i], SP_OBJECTIVE_MIN_WATER, covered[i], water[i]);
+    for (size_t first = 0; first < 3; first++) {
+        const sp_proposal *list[3];
+        for (size_t i = 0; i < 3; i++)
+            list[i] = &proposals[(first + i) % 3];
+        assert_ptr_equal(list[sp_place_best(list, 3)], &proposals[2]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +231,7 @@ int main(void)
         cmocka_unit_test(refinement_keeps_the_limit),
         cmocka_unit_test(ports_left_out_keep_their_names),
         cmocka_unit_test(the_best_is_chosen_by_the_objective),
+        cmocka_unit_test(little_by_little_nothing_is_given_away),
     };
     return cmocka_run_group_tests_name("limits of mounts", tests, NULL, NULL);
 }

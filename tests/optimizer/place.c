@@ -75,6 +75,48 @@ static void least_water_for_a_target(void **state)
     room_close(&j.room);
 }
 
+/* Far from all that could be reached, a jet beside the ball adds less than is told apart: it is not proposed but where
+ * the most is asked for, and stays on the front. */
+static void out_of_reach_hardly_more_is_not_worth_its_water(void **state)
+{
+    (void)state;
+    for (int most = 0; most < 2; most++) {
+        job j;
+        job_open(&j);
+        j.types[1] = room_cone("needle", 4 * DEGREE, 1);
+        j.mounts[0] = (sp_mount){.kind = SP_MOUNT_PORT,
+                                 .name = "P1",
+                                 .position = sp_v(0, 0, 0.6),
+                                 .axis = sp_v(0, 0, -1),
+                                 .type_count = 1,
+                                 .types = &j.type_list[2]};
+        j.mounts[1] = (sp_mount){.kind = SP_MOUNT_PORT,
+                                 .name = "P2",
+                                 .position = sp_v(0.5, 0.2, 0.6),
+                                 .axis = sp_unit(sp_v(0.5, 0.42, -0.4)),
+                                 .tilt = 20 * DEGREE,
+                                 .type_count = 1,
+                                 .types = &j.type_list[1]};
+        j.options.type_count = 3;
+        j.options.mount_count = 2;
+        j.options.max_nozzles = 2;
+        j.options.coverage = 1;
+        j.options.objective = most ? SP_OBJECTIVE_MAX_COVERAGE : SP_OBJECTIVE_MIN_WATER;
+        sp_proposal *proposal = job_place(&j);
+        const sp_front_point *dearest = &proposal->front[proposal->front_count - 1];
+        double whole = proposal->coverage->area;
+        assert_true(dearest->area < proposal->target_area);
+        assert_int_equal(dearest->nozzles, 2);
+        assert_int_equal(proposal->layout->count, most ? 2 : 1);
+        if (!most) {
+            assert_true(dearest->area > proposal->coverage->covered_area * (1 + 1e-6));
+            assert_true(dearest->area <= proposal->coverage->covered_area + SP_COVERAGE_TOLD * whole);
+        }
+        sp_proposal_destroy(proposal);
+        room_close(&j.room);
+    }
+}
+
 /* The least water with which one or two of them cover so much; infinite where none do. */
 static double least_for(const job *j, double area)
 {
@@ -518,6 +560,7 @@ int main(void)
         cmocka_unit_test(few_nozzles_cover_most_whatever_their_water),
 #endif
         cmocka_unit_test(least_water_for_a_target),
+        cmocka_unit_test(out_of_reach_hardly_more_is_not_worth_its_water),
         cmocka_unit_test(nothing_exceeds_the_certificate),
         cmocka_unit_test(water_allowed_may_be_used_up),
         cmocka_unit_test(water_beyond_what_is_allowed_is_not_taken),
