@@ -62,7 +62,8 @@ static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t 
         uint32_t tier = sp_pose_tier(pricing, site, k);
         double least = least_of(pricing, pricing->ports[mount], tier, needed, offers);
         *found = (sp_pose_best){.price = 0};
-        if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || pricing->search->port_taken[mount])
+        if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) ||
+            pricing->search->port_taken[mount] || !sp_search_knows(pricing->search, site, k))
             continue;
         const sp_view *view = sp_visibility_look(pricing->search->visibility, site, variant->launch, &own->buffer);
         if (!view->start && sp_type_is_uniform(variant->type))

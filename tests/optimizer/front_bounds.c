@@ -3,6 +3,7 @@
 
 #include "certificate/front_bounds.h"
 #include "certificate/priced_waters.h"
+#include "scoring/footprints.h"
 
 #define NOZZLES 12
 #define GAP 0.15 /* what is left open of the bound between two waters that were priced for */
@@ -26,6 +27,7 @@ static void chords_join_what_was_priced(void **state)
 typedef struct {
     room room;
     sp_nozzle_type type;
+    sp_member hole;
     const sp_nozzle_type *types[1];
     double pressure;
     sp_mount mount;
@@ -34,7 +36,8 @@ typedef struct {
     sp_front front;
 } hall;
 
-static void hall_open(hall *h)
+/* Of clusters, the first of whose poses alone there was time to trace, or of cones. */
+static void hall_open(hall *h, bool clusters)
 {
     room_builder b = {0};
     sp_error error = {0};
@@ -57,7 +60,18 @@ static void hall_open(hall *h)
     h->options.max_nozzles = NOZZLES;
     h->mount = (sp_mount){
         .kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .spacing = 2.5, .from = sp_v(-4, -4, 3.5), .to = sp_v(4, 4, 3.5)};
+    if (clusters) {
+        h->hole = (sp_member){.type = h->type, .axis = sp_v(0, 0, 1), .share = 1};
+        h->type.pattern = SP_PATTERN_CLUSTER;
+        h->type.members = &h->hole;
+        h->type.member_count = 1;
+        h->mount.spacing = 1;
+    }
     prepare(&h->ready, h->room.evaluator, &h->options);
+    sp_run none = {.threads = 1, .time_limit = 1e-9};
+    sp_deadline over = sp_deadline_start(&none);
+    if (clusters)
+        assert_true(sp_footprints_fill(h->ready.search.footprints, &over, &error));
     h->front = (sp_front){.fine = h->room.evaluator, .objective = SP_OBJECTIVE_MAX_COVERAGE, .target = INFINITY};
     sp_partial partial;
     assert_true(sp_partial_create(&h->ready.search, &partial, &error));
@@ -94,7 +108,7 @@ static void points_between_are_priced_for(void **state)
     hall h;
     sp_error error = {0};
     bool possible;
-    hall_open(&h);
+    hall_open(&h, false);
     sp_certifying c = {.deadline = &h.ready.deadline};
     assert_true(sp_problem_create(&h.ready.search, &h.front, &c.problem, &possible, &error) && possible);
     assert_true(sp_certifying_prepare(&c, &error));
@@ -116,11 +130,32 @@ static void points_between_are_priced_for(void **state)
     hall_close(&h);
 }
 
+/* Poses for which there was no time are none that a bound is of. */
+static void what_was_not_traced_is_not_priced(void **state)
+{
+    (void)state;
+    hall h;
+    sp_error error = {0};
+    bool possible;
+    hall_open(&h, true);
+    assert_false(sp_footprints_whole(h.ready.search.footprints));
+    sp_certifying c = {.deadline = &h.ready.deadline};
+    assert_true(sp_problem_create(&h.ready.search, &h.front, &c.problem, &possible, &error) && possible);
+    assert_true(sp_problem_poses(&c.problem) < h.ready.candidates.pose_start[h.ready.sites.count]);
+    assert_true(sp_certifying_prepare(&c, &error));
+    size_t most = c.problem.cover.water;
+    assert_true(sp_lower_bound(&c, most, 2, &error));
+    assert_true(c.bound.by_water[most] >= sp_partial_counted(&h.ready.search, &h.front.best) * (1 - 1e-9));
+    sp_certifying_free(&c);
+    hall_close(&h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chords_join_what_was_priced),
         cmocka_unit_test(points_between_are_priced_for),
+        cmocka_unit_test(what_was_not_traced_is_not_priced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
