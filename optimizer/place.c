@@ -430,6 +430,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->stage_count = placement->deadline.stage_count;
     proposal->stages = placement->deadline.stages;
     proposal->cut_count = placement->deadline.cut_count;
+    proposal->attainable_hurried = sp_deadline_was_cut(&placement->deadline, "attainable");
     memcpy(proposal->cut, placement->deadline.cut, sizeof proposal->cut);
     placement->deadline.stages = NULL;
     return proposal->front && proposal->by_number;

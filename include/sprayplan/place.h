@@ -187,14 +187,16 @@ typedef struct {
                        * mounts and types allow, not only as candidates are, could cover the point that it is judged
                        * by within the limits; or either layout above covers half of it. Where the evaluator counts
                        * what walls throw back: any liquid gets there */
-    sp_reason *reasons;     /* [patches]: why not */
-    double attainable_area; /* m² */
-    double asked_area;      /* m²: options' coverage of the surface to be cleaned */
-    double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
-    bool reached;           /* the proposal covers asked_area within all limits */
-    bool interrupted;       /* cancelled or out of time: the best so far */
-    size_t max_nozzles;     /* the options': 0: no limit */
-    double max_water;       /* the options', m³/s: INFINITY: no limit */
+    sp_reason *reasons;      /* [patches]: why not */
+    double attainable_area;  /* m² */
+    bool attainable_hurried; /* these three are as far as the time allowed to look, on coarser patches than at leisure
+                              * perhaps: more, or less, may be attainable. Then `cut` has "attainable" */
+    double asked_area;       /* m²: options' coverage of the surface to be cleaned */
+    double target_area;      /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
+    bool reached;            /* the proposal covers asked_area within all limits */
+    bool interrupted;        /* cancelled or out of time: the best so far */
+    size_t max_nozzles;      /* the options': 0: no limit */
+    double max_water;        /* the options', m³/s: INFINITY: no limit */
     double water_lacking; /* m³/s, that max_water is short of what the kept nozzles and the least further one of those
                            * that are allowed take together: `layout` has kept ones alone; 0 where one fits */
     size_t positions,

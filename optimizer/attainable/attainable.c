@@ -220,6 +220,19 @@ static void allow_thrown_back(size_t patches, sp_reason *reasons)
             reasons[p] = SP_REASON_ATTAINABLE;
 }
 
+/* Whether more time might find more: what was asked of the search's patches is as good as these and as what was traced
+ * on them. */
+static bool is_hurried(const sp_evaluator *fine, const sp_search *search, const sp_reason *reasons)
+{
+    bool asked = sp_evaluator_setup(fine)->sweep.speed > 0 || search->footprints || search->runoffs ||
+                 sp_evaluator_counts_thrown_back(fine);
+    bool whole = !search->visibility->hurried && sp_footprints_whole(search->footprints);
+    for (size_t p = 0; asked && !whole && p < sp_evaluator_patches(fine)->count; p++)
+        if (reasons[p] != SP_REASON_ATTAINABLE)
+            return true;
+    return false;
+}
+
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error)
 {
@@ -250,6 +263,8 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
         doubt(search, sp_evaluator_patches(fine)->count, reasons);
         if (sp_evaluator_counts_thrown_back(fine))
             allow_thrown_back(sp_evaluator_patches(fine)->count, reasons);
+        if (is_hurried(fine, search, reasons))
+            sp_deadline_cut(deadline, "attainable");
     }
     free(scopes);
     sp_coverage_destroy(kept);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define LEISURE 160.0 /* s of time limit, added up over the threads of all ranks: with less a placement hurries */
-#define PLENTY 90.0  /* times what goes before the first layout: more than the search takes at leisure */
+#define PLENTY 90.0   /* times what goes before the first layout: more than the search takes at leisure */
 
 sp_deadline sp_deadline_start(const sp_run *run)
 {
@@ -86,12 +86,17 @@ static void ask_callback(sp_deadline *deadline, const char *stage, double done)
         deadline->asked = !deadline->run.progress(deadline->run.user, stage, done);
 }
 
-static void note_cut(sp_deadline *deadline, const char *stage)
+bool sp_deadline_was_cut(const sp_deadline *deadline, const char *stage)
 {
     size_t at = 0;
     while (at < deadline->cut_count && strcmp(deadline->cut[at], stage))
         at++;
-    if (at == deadline->cut_count && at < SP_STAGES_CUT)
+    return at < deadline->cut_count;
+}
+
+static void note_cut(sp_deadline *deadline, const char *stage)
+{
+    if (!sp_deadline_was_cut(deadline, stage) && deadline->cut_count < SP_STAGES_CUT)
         snprintf(deadline->cut[deadline->cut_count++], SP_STAGE_NAME, "%s", stage);
 }
 

@@ -47,6 +47,7 @@ bool sp_deadline_goes_on(sp_deadline *deadline, const char *stage, double done);
 bool sp_deadline_has_time(sp_deadline *deadline, const char *stage, double done);
 /* Notes that this stage was cut short or left out, once each. */
 void sp_deadline_cut(sp_deadline *deadline, const char *stage);
+bool sp_deadline_was_cut(const sp_deadline *deadline, const char *stage);
 /* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
 bool sp_deadline_stage(sp_deadline *deadline, const char *name, sp_error *error);
 

@@ -29,6 +29,7 @@ typedef struct {
     size_t cells;    /* most of them, of cells, that one part of the tracing has */
     sp_view *views;  /* [site_count x launch_count], those that are kept */
     bool *known;     /* [site_count x launch_count], traced before the time was up */
+    bool hurried;    /* not all were, or time was too short for patches as fine as at leisure */
     uint8_t *sights; /* [site_count x launch_count][sight_bytes], bit 2 patch + arc: whether the way is free */
     size_t sight_bytes;
     double memory;    /* bytes that the options allow it and footprints together */

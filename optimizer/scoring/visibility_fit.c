@@ -27,6 +27,16 @@ static double patches_that_pass(const sp_evaluator *fine, double views, double p
     return fmax(PATCHES_LEAST, fmin(fmin(most, PASS_PATCHES_MOST), patches));
 }
 
+/* m, no shorter than the fine one's, for no more than `most` patches: of goods that stand still as many as are
+ * `bearable`. */
+static double texel_for(const sp_evaluator *fine, double views, double poses, double bearable, double most)
+{
+    double finer = sp_evaluator_fidelity(fine)->texel, count = (double)sp_evaluator_patches(fine)->count;
+    double patches = sp_evaluator_setup(fine)->sweep.speed > 0 ? patches_that_pass(fine, views, poses, most)
+                                                               : fmax(PATCHES_LEAST, fmin(most, bearable));
+    return fmax(finer, finer * sqrt(count / patches));
+}
+
 static bool any_drops(const sp_candidates *candidates)
 {
     for (size_t i = 0; i < candidates->launch_count; i++)
@@ -47,21 +57,20 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
     most = fmin(most, SP_PRINTS_SHARE * sp_visibility_memory(options) / (SP_PRINT * fmax(1, footprints)));
     most = drag ? fmin(most, DRAG_PATCHES_MOST) : most;
-    most = sp_run_hurries(&options->run) ? fmin(most, HURRIED_PATCHES_MOST) : most;
-    double rays = drag ? DRAG_RAYS_MOST : RAYS_MOST;
-    double patches = fmax(PATCHES_LEAST, fmin(most, fmin(rays / views, sweeps / poses)));
-    double finer = sp_evaluator_fidelity(fine)->texel;
-    if (setup->sweep.speed > 0)
-        patches = patches_that_pass(fine, views, poses, most);
-    double texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
+    double rays = drag ? DRAG_RAYS_MOST : RAYS_MOST, bearable = fmin(rays / views, sweeps / poses);
+    double leisurely = texel_for(fine, views, poses, bearable, most), texel = leisurely;
+    if (sp_run_hurries(&options->run))
+        texel = texel_for(fine, views, poses, bearable, fmin(most, HURRIED_PATCHES_MOST));
     *resampled = NULL;
-    if (film || texel > SAME * finer) {
-        *resampled = sp_evaluator_resample(fine, fmax(texel, finer), error);
+    if (film || texel > SAME * sp_evaluator_fidelity(fine)->texel) {
+        *resampled = sp_evaluator_resample(fine, texel, error);
         if (!*resampled)
             return false;
     }
-    if (sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, deadline, visibility, error))
+    if (sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, deadline, visibility, error)) {
+        visibility->hurried |= *resampled && texel > leisurely;
         return true;
+    }
     sp_evaluator_destroy(*resampled);
     *resampled = NULL;
     return false;

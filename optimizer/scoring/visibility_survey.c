@@ -203,12 +203,14 @@ static bool survey_all(sp_survey *survey, sp_deadline *deadline, sp_error *error
         size_t end = first + batch < sites ? first + batch : sites;
         /* out of time the first batch is traced all the same, so that there is something to choose from */
         if (!sp_deadline_goes_on(deadline, "visibility", (double)first / (double)sites) &&
-            (first || deadline->cancelled))
+            (first || deadline->cancelled)) {
+            visibility->hurried = true;
             break;
+        }
         if (first && options->run.time_limit > 0 &&
             (sp_deadline_elapsed(deadline) > TIME_SHARE * options->run.time_limit ||
              too_many(visibility, end, deadline))) {
-            deadline->interrupted = true;
+            visibility->hurried = deadline->interrupted = true;
             sp_deadline_cut(deadline, "visibility");
             break;
         }

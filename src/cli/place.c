@@ -85,6 +85,8 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
 /* True where it is known of all of the surface whether it is attainable. */
 static bool is_looked_into(const sp_proposal *proposal)
 {
+    if (proposal->attainable_hurried)
+        return false;
     for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
         if (proposal->reasons[p] == SP_REASON_UNKNOWN)
             return false;

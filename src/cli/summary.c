@@ -315,18 +315,19 @@ static void print_parts(const sp_figures *figures, sp_reason reason)
 static void print_missing(const sp_figures *figures, const sp_proposal *proposal, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
+    const char *looked = proposal->attainable_hurried ? ", as far as the time allowed to look" : "";
     char area[CLI_AMOUNT];
     area_text(figures, figures->beyond_area, 4, area);
     if (figures->beyond_area > SP_BEYOND_TOLD * figures->clean_area)
-        printf("%s%sreached by the scene's own nozzles alone, by none that is allowed: %.1f %% of the surface to be "
+        printf("%s%sreached by the scene's own nozzles alone, by none that is allowed%s: %.1f %% of the surface to be "
                "cleaned, %s m2\n",
-               name, name[0] ? ": " : "", 100 * figures->beyond_area / figures->clean_area, area);
+               name, name[0] ? ": " : "", looked, 100 * figures->beyond_area / figures->clean_area, area);
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;
     area_text(figures, missing, 4, area);
-    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %s m2\n", name,
-           name[0] ? ": " : "", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
+    printf("%s%sout of reach of every allowed nozzle%s%s: %.*f %% of the surface to be cleaned, %s m2\n", name,
+           name[0] ? ": " : "", looked, figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
            percent < 1 ? 3 : 1, percent, area);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(figures, reason);

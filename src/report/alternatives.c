@@ -109,7 +109,7 @@ static void add_attainable(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
     sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
-    sp_text_add(text, "&nbsp;%%");
+    sp_text_add(text, "&nbsp;%%%s", sp_page_looked(page, design));
 }
 
 /* By how much, and by how much for each fitting that it has more. */

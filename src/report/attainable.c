@@ -106,6 +106,12 @@ static void add_allowed(const sp_page *page, sp_text *text)
     sp_markup_escape(text, page->figures[page->main].name);
 }
 
+const char *sp_page_looked(const sp_page *page, size_t design)
+{
+    const sp_proposal *proposal = design == SP_UNKNOWN ? NULL : sp_result_proposal(page->result, design);
+    return proposal && proposal->attainable_hurried ? ", as far as the time allowed to look" : "";
+}
+
 /* What counts as attainable for the engineer's nozzles alone, which the search had not to choose from. */
 static void add_beyond(const sp_page *page, const sp_figures *figures, sp_text *text)
 {
@@ -118,7 +124,9 @@ static void add_beyond(const sp_page *page, const sp_figures *figures, sp_text *
                 "&nbsp;%% of the surface to be cleaned is reached by the engineer&#39;s own nozzles alone</strong>, "
                 "and by no ");
     add_allowed(page, text);
-    sp_text_add(text, ": it counts as attainable, and no proposal can cover it.</p>\n");
+    const char *looked = sp_page_looked(page, page->main);
+    sp_text_add(text, "%s: it counts as attainable%s.</p>\n", looked,
+                looked[0] ? "" : ", and no proposal can cover it");
 }
 
 void sp_page_out_of_reach(const sp_page *page, sp_text *text)
@@ -139,7 +147,8 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text)
     sp_markup_decimals(text, percent, percent < 1 ? 3 : 1);
     sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every ");
     add_allowed(page, text);
-    sp_text_add(text, "%s: ", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
+    sp_text_add(text, "%s%s: ", sp_page_looked(page, page->main),
+                figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
     for (size_t i = 0; i < count; i++) {
         sp_text_add(text, i ? "; " : "");
         add_reason(text, figures, &unit, ranked[i]);
@@ -250,7 +259,7 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     sp_markup_significant(text, figures->attainable_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2 (");
     sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
-    sp_text_add(text, "&nbsp;%%) are attainable: some ");
+    sp_text_add(text, "&nbsp;%%) are attainable%s: some ", sp_page_looked(page, page->main));
     add_allowed(page, text);
     sp_text_add(text,
                 ", at a mounting point looked at and aimed in any way that its mount and type allow, not only as the "
@@ -260,7 +269,7 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
                     : "reaches them as the criterion asks",
                 page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
     double limited = add_limited(page, text, figures);
-    if (missing - limited > NEGLIGIBLE * figures->clean_area)
+    if (missing - limited > NEGLIGIBLE * figures->clean_area && !sp_page_looked(page, page->main)[0])
         add_fault(page, text, !limited);
     sp_text_add(text, "</p>\n");
     if (missing > NEGLIGIBLE * figures->clean_area)

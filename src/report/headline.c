@@ -111,7 +111,8 @@ static void add_shortfall(const sp_page *page, const sp_proposal *proposal, sp_t
     sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for");
     add_limits(&page->result->designs[page->main], proposal, text);
     sp_text_add(text, "; ");
-    if (proposal->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0))
+    if (proposal->attainable_area < proposal->asked_area && !proposal->attainable_hurried &&
+        !(proposed->missing_area[SP_REASON_UNKNOWN] > 0))
         add_attainable(proposed, proposal, text);
     sp_text_add(text, "the proposal covers ");
     sp_markup_decimals(text, percent * proposed->covered_area, 1);

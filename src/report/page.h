@@ -57,6 +57,8 @@ const char *sp_page_colour(const sp_page *page, size_t design);
 /* attainable.c: what no allowed nozzle reaches, in a sentence; by reason and part, as a table. Nothing where it is not
  * known. */
 void sp_page_out_of_reach(const sp_page *page, sp_text *text);
+/* attainable.c: ", as far as the time allowed to look" of what speaks of a design and was found in a hurry; else "". */
+const char *sp_page_looked(const sp_page *page, size_t design);
 void sp_page_attainable(const sp_page *page, sp_text *text);
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);

@@ -403,9 +403,11 @@ static void add_shadow_notes(const sp_page *page, sp_text *text)
         sp_text_add(text, "; a dash: none does, or what each nozzle brings was not worked out");
     sp_text_add(text,
                 ". A region that is not attainable is out of reach of every allowed nozzle at the mounting points "
-                "looked at, within the limits of number and water: a matter of the %s, the mounts or these limits, not "
-                "of the layout. ",
-                sp_page_cleaned(page));
+                "looked at, within the limits of number and water%s",
+                sp_page_looked(page, page->main));
+    if (!sp_page_looked(page, page->main)[0])
+        sp_text_add(text, ": a matter of the %s, the mounts or these limits, not of the layout", sp_page_cleaned(page));
+    sp_text_add(text, ". ");
     if (columns.remedies)
         sp_text_add(text, "One more nozzle: of the candidates looked at the one that, beside the layout's own, covers "
                           "most of the region, how much of it and for how much water, whatever number and water are "

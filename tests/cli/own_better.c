@@ -134,6 +134,23 @@ static void what_own_nozzles_alone_reach_is_attainable_everywhere(void **state)
     forget(&done);
 }
 
+/* With no time to look for more, that is said where it would be a matter of the nozzles allowed. */
+static void what_the_time_did_not_allow_to_look_for_is_not_denied(void **state)
+{
+    (void)state;
+    write_room("ball.yaml", "ball");
+    outcome done = run_program("place ball.yaml --set 'place.types=[cone]' --set place.max_nozzles=1 --time-limit 0.01 "
+                               "--no-live -o hurried " COARSE);
+    assert_int_equal(done.status, 4);
+    assert_non_null(strstr(done.out, "by none that is allowed, as far as the time allowed to look: "));
+    assert_null(strstr(done.err, "no more than"));
+    char *page = read_file("hurried/report.html", NULL);
+    assert_non_null(strstr(page, ", as far as the time allowed to look: it counts as attainable."));
+    assert_null(strstr(page, "no proposal can cover it"));
+    free(page);
+    forget(&done);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +158,7 @@ int main(void)
         cmocka_unit_test(what_does_not_or_is_beyond_the_limits_is_not),
         cmocka_unit_test(the_page_tells_it_too),
         cmocka_unit_test(what_own_nozzles_alone_reach_is_attainable_everywhere),
+        cmocka_unit_test(what_the_time_did_not_allow_to_look_for_is_not_denied),
         cmocka_unit_test(what_the_search_does_not_count_is_told),
     };
     return cmocka_run_group_tests_name("own nozzles better", tests, open_workplace, close_workplace);

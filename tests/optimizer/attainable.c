@@ -441,10 +441,45 @@ static void what_is_not_looked_into_is_not_out_of_reach(void **state)
         no_line[hurries] = j.area[SP_REASON_NO_LINE];
         assert_true(j.area[SP_REASON_FLUX] == 0);
         assert_true(j.proposal->target_area == j.proposal->asked_area);
+        assert_int_equal(j.proposal->attainable_hurried, hurries);
         job_end(&j);
     }
     assert_true(attained[1] < 0.7 * 36 && attained[0] > 0.7 * 36);
     assert_true(no_line[0] == no_line[1]);
+}
+
+/* True where the proposal names the stage among what was cut short. */
+static bool is_named(const sp_proposal *proposal, const char *stage)
+{
+    for (size_t i = 0; i < proposal->cut_count; i++)
+        if (!strcmp(proposal->cut[i], stage))
+            return true;
+    return false;
+}
+
+#define HURRY 90 /* s, for one thread: a placement hurries, and has more than it takes */
+
+/* With little time the search has coarser patches, by which it is judged what clusters attain: that is told, though
+ * nothing was stopped. Cones are judged on the final ones whatever the time. */
+static void what_coarser_patches_tell_is_told_as_hurried(void **state)
+{
+    (void)state;
+    for (int cluster = 0; cluster < 2; cluster++)
+        for (int hurries = 0; hurries < 2; hurries++) {
+            job j;
+            sp_member hole = {.type = room_cone("hole", 60 * DEGREE, 1), .axis = sp_v(0, 0, 1), .share = 1};
+            job_begin(&j, 60 * DEGREE);
+            if (cluster) {
+                j.type.pattern = SP_PATTERN_CLUSTER;
+                j.type.members = &hole;
+                j.type.member_count = 1;
+            }
+            j.options.run.time_limit = hurries ? HURRY : 0;
+            job_run_coarse(&j, 0.1);
+            assert_int_equal(j.proposal->attainable_hurried, cluster && hurries);
+            assert_int_equal(is_named(j.proposal, "attainable"), cluster && hurries);
+            job_end(&j);
+        }
 }
 
 /* Views and footprints of one scene, each for itself in less than the memory there is, both together in no more. */
@@ -502,6 +537,7 @@ int main(void)
         cmocka_unit_test(little_memory_is_enough),
         cmocka_unit_test(views_keep_within_memory),
         cmocka_unit_test(what_is_not_looked_into_is_not_out_of_reach),
+        cmocka_unit_test(what_coarser_patches_tell_is_told_as_hurried),
         cmocka_unit_test(views_and_footprints_share_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

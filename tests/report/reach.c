@@ -55,6 +55,22 @@ static void one_share_is_attainable(void **state)
     sp_figures_destroy(figures, result.design_count);
 }
 
+/* What was not found in the time may be there: no sentence says that it is not. */
+static void is_told_as_hurried(const char *html)
+{
+    static const char *const sentences[] = {"<p id=\"beyond\"", "<p id=\"out-of-reach\"", "<section id=\"attainable\">",
+                                            "A region that is not attainable"};
+    static const char looked[] = ", as far as the time allowed to look";
+    for (size_t i = 0; i < sizeof sentences / sizeof *sentences; i++) {
+        const char *sentence = strstr(html, sentences[i]);
+        assert_non_null(sentence);
+        assert_true(strstr(sentence, looked) && strstr(sentence, looked) < strstr(sentence, "</p>"));
+    }
+    assert_null(strstr(html, "no proposal can cover it"));
+    assert_null(strstr(html, "reach no more than"));
+    assert_null(strstr(html, "which no choice among them mends"));
+}
+
 /* What the engineer's nozzles cover counts as attainable; that no allowed nozzle reaches it is told. */
 static void what_own_nozzles_alone_reach_is_told(void **state)
 {
@@ -85,6 +101,11 @@ static void what_own_nozzles_alone_reach_is_told(void **state)
     same_real(figures[2].missing_area[SP_REASON_NO_LINE], patches->total_area - covered);
     html = sp_report_html(&result, &error);
     assert_non_null(strstr(html, "<p id=\"beyond\" class=\"warning\">"));
+    assert_non_null(strstr(html, "no proposal can cover it"));
+    free(html);
+    proposal.attainable_hurried = true;
+    html = sp_report_html(&result, &error);
+    is_told_as_hurried(html);
     free(html);
     sp_figures_destroy(figures, result.design_count);
     free(proposal.attainable);
