@@ -10,6 +10,7 @@
 #include "search/front_gaps.h"
 #include "search/find.h"
 #include "ceres/least_squares.h"
+#include "refine/other_types.h"
 #include "refine/refine.h"
 #include "refine/settable.h"
 
@@ -232,8 +233,8 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     return done;
 }
 
-/* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set; in the end
- * as the scene measures it. */
+/* What was found on the candidates, moved and aimed anew, put together anew, and all of it as it can be set, the best
+ * then of the types that suit its places; in the end as the scene measures it. */
 static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_error *error)
 {
     const sp_search *search = &placement->search;
@@ -246,7 +247,7 @@ static bool improve(sp_placement *placement, const sp_proposal *proposal, sp_err
         !sp_deadline_stage(deadline, "fill", error))
         return false;
     sp_deadline_allow(deadline, sp_setting_share(placement->options));
-    if (!sp_set_front(search, deadline, front, error))
+    if (!sp_set_front(search, deadline, front, error) || !sp_try_other_types(search, deadline, front, error))
         return false;
     sp_deadline_allow(deadline, sp_counting_share(placement->options));
     return sp_count_by_all_jets(front, search, proposal->target_area, error);

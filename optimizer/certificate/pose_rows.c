@@ -45,13 +45,18 @@ size_t sp_pose_write_field(const sp_pose_pricing *pricing, const float *field, u
     return count;
 }
 
-size_t sp_pose_write(const sp_pose_pricing *pricing, sp_pose pose, uint32_t *texels, float *shares)
+static size_t write_footprint(const sp_pose_pricing *pricing, const sp_footprint *footprint, uint32_t *texels,
+                              float *shares)
 {
-    const sp_footprint *footprint = sp_footprints_look(pricing->search->footprints, pose);
     size_t count = 0;
     for (size_t i = 0; i < footprint->count; i++)
         count = write_print(pricing, &footprint->prints[i], texels, shares, count);
     return count;
+}
+
+size_t sp_pose_write(const sp_pose_pricing *pricing, sp_pose pose, uint32_t *texels, float *shares)
+{
+    return write_footprint(pricing, sp_footprints_look(pricing->search->footprints, pose), texels, shares);
 }
 
 bool sp_pose_pricing_row(const sp_pose_pricing *pricing, const float *field, uint64_t key, size_t port, uint32_t tier,
@@ -63,11 +68,11 @@ bool sp_pose_pricing_row(const sp_pose_pricing *pricing, const float *field, uin
 }
 
 /* Appends the row of a pose that no sweep knows. */
-static bool add_footprint(const sp_pose_pricing *pricing, sp_pose pose, uint64_t key, size_t port, uint32_t tier,
-                          sp_rows *rows, sp_error *error)
+static bool add_footprint(const sp_pose_pricing *pricing, const sp_footprint *footprint, uint64_t key, size_t port,
+                          uint32_t tier, sp_rows *rows, sp_error *error)
 {
     const sp_pose_scratch *own = &pricing->scratches[omp_get_thread_num()];
-    size_t count = sp_pose_write(pricing, pose, own->texels, own->shares);
+    size_t count = write_footprint(pricing, footprint, own->texels, own->shares);
     return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
 }
 
@@ -77,7 +82,8 @@ bool sp_pose_pricing_found(const sp_pose_pricing *pricing, const sp_placed *plac
     size_t port = pricing->ports[placed->site.mount];
     return sp_type_is_uniform(placed->nozzle.type)
                ? sp_pose_pricing_row(pricing, placed->field, SP_OWN_KEY, port, tier, rows, error)
-               : add_footprint(pricing, placed->pose, SP_OWN_KEY, port, tier, rows, error);
+               : add_footprint(pricing, sp_placed_footprint(pricing->search, placed), SP_OWN_KEY, port, tier, rows,
+                               error);
 }
 
 /* The field of a pose that sweeps know, rounded upwards, into the thread's own. */
@@ -108,7 +114,7 @@ bool sp_pose_pricing_add(const sp_pose_pricing *pricing, sp_pose pose, sp_rows *
            port = pricing->ports[search->sites->items[pose.site].mount];
     uint32_t tier = sp_pose_tier(pricing, pose.site, pose.variant);
     if (!sp_type_is_uniform(search->candidates->variants[pose.variant].type))
-        return add_footprint(pricing, pose, key, port, tier, rows, error);
+        return add_footprint(pricing, sp_footprints_look(search->footprints, pose), key, port, tier, rows, error);
     sweep_pose(pricing, own, pose);
     return sp_pose_pricing_row(pricing, own->field, key, port, tier, rows, error);
 }

@@ -1,5 +1,7 @@
 #include "scoring/footprints.h"
 
+#include "mesh/grow.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -8,6 +10,8 @@
 struct sp_footprints {
     sp_search search;     /* of which only what does not change is used */
     sp_footprint **known; /* [poses], by number; NULL: not traced */
+    sp_footprint **added; /* [added_count], of nozzles in no candidate's pose */
+    size_t added_count, added_capacity;
     double bytes;
     bool closed;  /* what is not known brings nothing */
     bool lacking; /* some are not known */
@@ -53,6 +57,11 @@ void sp_footprints_destroy(sp_footprints *footprints)
             sp_footprint_free(footprints->known[i]);
             free(footprints->known[i]);
         }
+    for (size_t i = 0; i < footprints->added_count; i++) {
+        sp_footprint_free(footprints->added[i]);
+        free(footprints->added[i]);
+    }
+    free(footprints->added);
     free(footprints->known);
     pthread_mutex_destroy(&footprints->lock);
     free(footprints);
@@ -116,6 +125,21 @@ const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose)
         return found ? found : &nothing;
     sp_error error = {0};
     return keep(footprints, number, trace(footprints, pose, &error), &error);
+}
+
+const sp_footprint *sp_footprints_add(sp_footprints *footprints, const sp_nozzle *nozzle, sp_error *error)
+{
+    if (!sp_grow(&footprints->added, &footprints->added_capacity, footprints->added_count + 1,
+                 sizeof *footprints->added))
+        return sp_fail_memory(error);
+    sp_footprint *footprint = malloc(sizeof *footprint);
+    if (!footprint)
+        return sp_fail_memory(error);
+    if (!sp_footprint_trace(&footprints->search, nozzle, footprint, error)) {
+        free(footprint);
+        return NULL;
+    }
+    return footprints->added[footprints->added_count++] = footprint;
 }
 
 bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant)

@@ -18,6 +18,8 @@ void sp_footprints_destroy(sp_footprints *footprints);
 bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_error *error);
 /* The footprint of a pose, owned by the footprints. Safe to call from many threads. */
 const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);
+/* That of a nozzle wherever it stands, owned by the footprints, too; NULL on error. For one thread at a time. */
+const sp_footprint *sp_footprints_add(sp_footprints *footprints, const sp_nozzle *nozzle, sp_error *error);
 /* False of a variant's poses at a site that were left out. */
 bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant);
 /* False where any were left out. Accepts NULL, which left out none. */

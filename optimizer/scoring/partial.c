@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+const sp_footprint *sp_placed_footprint(const sp_search *search, const sp_placed *placed)
+{
+    return placed->moved ? placed->moved : sp_footprints_look(search->footprints, placed->pose);
+}
+
 /* Whether item i's edges are item k's, which sprays more, or as much and comes first (see sp_layout_repeats). */
 static bool repeats_item(const sp_search *search, const sp_partial *partial, size_t i, size_t k)
 {
@@ -34,8 +39,7 @@ static void pour_item(const sp_search *search, sp_partial *partial, size_t i)
     partial->flow += partial->items[i].flow;
     partial->outlay += sp_placed_outlay(search, &partial->items[i]);
     if (!sp_type_is_uniform(partial->items[i].nozzle.type)) {
-        sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), again, hit, film,
-                          dry);
+        sp_footprint_pour(search, sp_placed_footprint(search, &partial->items[i]), again, hit, film, dry);
         return;
     }
     for (size_t p = 0; p < search->patch_count && !again; p++)

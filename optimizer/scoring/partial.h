@@ -3,15 +3,17 @@
 #ifndef OPTIMIZER_PARTIAL_H
 #define OPTIMIZER_PARTIAL_H
 
+#include "scoring/footprint.h"
 #include "scoring/wetness.h"
 
 typedef struct {
     sp_nozzle nozzle;
-    sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
-    sp_pose pose;     /* the same, where it is still there: of a type that no sweep knows */
-    sp_site site;     /* where it is now: a surface's axis changes along it */
-    double flow;      /* m³/s */
-    bool again;       /* its edges are another's in the partial layout, and count as that one's */
+    sp_nozzle origin;          /* the candidate that it was, from which refinement's limits count */
+    sp_pose pose;              /* the same, where it is still there: of a type that no sweep knows */
+    const sp_footprint *moved; /* of such a type that stands elsewhere in the end, on the search's patches; else NULL */
+    sp_site site;              /* where it is now: a surface's axis changes along it */
+    double flow;               /* m³/s */
+    bool again;                /* its edges are another's in the partial layout, and count as that one's */
     /* [field_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any
      * liquid covers; or, below 0, less the share that it covers by itself at its spray's edge. Behind these, where film
      * is asked for, the film that comes of it over what is asked for. */
@@ -53,6 +55,8 @@ static inline bool sp_covers_more(const sp_search *search, const sp_partial *a, 
 {
     return a->covered > b->covered + SP_TIE * search->all;
 }
+/* What a nozzle brings of a type that no sweep knows. */
+const sp_footprint *sp_placed_footprint(const sp_search *search, const sp_placed *placed);
 /* What a nozzle takes where it is, m³/s. */
 static inline double sp_placed_outlay(const sp_search *search, const sp_placed *placed)
 {

@@ -58,6 +58,42 @@ static void pose_moves_over_the_floor(void **state)
     room_close(&j.room);
 }
 
+/* Neither reaches the target from where it may stand as a candidate. The cone, which is moved, does from the middle,
+ * and so does there the cluster, which is not moved but takes less. */
+static void the_place_found_for_one_type_may_suit_another(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j, 1.5, 0.03, 0);
+    j.type = room_cone("cone", 62 * DEGREE, 20);
+    sp_member hole = {.type = room_cone("hole", 61 * DEGREE, 1), .axis = sp_v(0, 0, 1), .share = 1};
+    sp_nozzle_type ball = room_cone("ball", 0, 15);
+    const sp_nozzle_type *types[] = {&j.type, &ball};
+    ball.pattern = SP_PATTERN_CLUSTER;
+    ball.members = &hole;
+    ball.member_count = 1;
+    j.mount = (sp_mount){
+        .kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 2, .from = sp_v(-0.9, 0, 2), .to = sp_v(1, 0, 2)};
+    j.options.types = types;
+    j.options.type_count = 2;
+    j.options.objective = SP_OBJECTIVE_MIN_WATER;
+    j.options.coverage = 0.9;
+    j.options.refine = (sp_refine){.position = 1};
+    sp_proposal *proposal = job_place(&j);
+    const sp_nozzle *nozzle = &proposal->layout->nozzles[0];
+    assert_true(proposal->reached);
+    assert_true(proposal->greedy_coverage->covered_area < proposal->target_area);
+    assert_int_equal(proposal->layout->count, 1);
+    assert_ptr_equal(nozzle->type, &ball);
+    assert_true(fabs(nozzle->position.x) < 0.6);
+    assert_true(proposal->coverage->flow == ball.flow);
+    const sp_certificate *proved = &proposal->certificate;
+    assert_true(proved->computed && proved->own > 0);
+    assert_true(proved->counted > 0.9 * proved->whole);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 /* A cone that leans to both sides is the same at every roll: none is asked for. */
 static void a_cone_is_not_rolled(void **state)
 {
@@ -229,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_aperture_whose_rim_is_just_wet),
         cmocka_unit_test(pose_moves_over_the_floor),
+        cmocka_unit_test(the_place_found_for_one_type_may_suit_another),
         cmocka_unit_test(a_cone_is_not_rolled),
         cmocka_unit_test(flow_is_turned_down_while_the_target_holds),
         cmocka_unit_test(flow_is_turned_up_for_what_is_asked),
