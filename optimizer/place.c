@@ -9,6 +9,7 @@
 #include "search/few_jets.h"
 #include "search/front_gaps.h"
 #include "search/find.h"
+#include "search/known.h"
 #include "ceres/least_squares.h"
 #include "refine/other_types.h"
 #include "refine/refine.h"
@@ -220,7 +221,8 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     bool refines = sp_refine_asked(&placement->options->refine), brief = sp_run_hurries(run);
     bool hurried = refines && (brief || sp_deadline_presses(deadline));
     sp_partial first;
-    if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
+    if (!sp_take_known(front, search, error) ||
+        !sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
     if (hurried && !brief)
         sp_deadline_lend(deadline, SP_FIRST_SHARE);
@@ -428,13 +430,14 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
     proposal->front = sp_front_by_water(&placement->front, &proposal->front_count, error);
     proposal->by_number = sp_front_by_number(&placement->front, &proposal->by_number_count, error);
+    proposal->found = sp_found_create(&placement->front, &placement->search, proposal->again, error);
     proposal->stage_count = placement->deadline.stage_count;
     proposal->stages = placement->deadline.stages;
     proposal->cut_count = placement->deadline.cut_count;
     proposal->attainable_hurried = sp_deadline_was_cut(&placement->deadline, "attainable");
     memcpy(proposal->cut, placement->deadline.cut, sizeof proposal->cut);
     placement->deadline.stages = NULL;
-    return proposal->front && proposal->by_number;
+    return proposal->front && proposal->by_number && proposal->found;
 }
 
 /* What all ranks decide alike has to be the same on all: so many threads as every one has, and the shortest time. Where
@@ -498,6 +501,7 @@ void sp_proposal_destroy(sp_proposal *proposal)
     free(proposal->reasons);
     free(proposal->front);
     free(proposal->by_number);
+    sp_found_destroy(proposal->found);
     free(proposal->stages);
     sp_evaluator_destroy(proposal->again);
     free(proposal);

@@ -70,6 +70,10 @@ typedef struct {
     double flow;  /* share of the rated flow; INFINITY: the type's whole range */
 } sp_refine;
 
+/* What a placement found, for another one to begin with. */
+typedef struct sp_found sp_found;
+typedef struct sp_proposal sp_proposal;
+
 typedef struct {
     sp_objective objective;
     double coverage;    /* asked for, share of the surface to be cleaned; where less is attainable the search aims at
@@ -93,7 +97,13 @@ typedef struct {
     const sp_mount *others; /* borrowed: of ports among them that are not to be used no nozzle gets the name */
     sp_refine refine;
     const sp_layout *kept; /* borrowed, may be NULL: the scene's own; its nozzles marked keep are in every proposal */
-    bool mend_kept;        /* default true: what would mend the shadows of all of `kept` is looked for, too */
+    size_t known_count;
+    const sp_proposal *const *known; /* borrowed: proposals for the same evaluator and options but for mounts, types,
+                                      * pressures, numbers, water, time and memory. What they found is found here, too,
+                                      * as far as it is allowed, at the prices of these mounts: nothing that is told
+                                      * here is worse. Of clusters, and of types that do not spray as densely all over,
+                                      * that holds at poses that are candidates here as well */
+    bool mend_kept;                  /* default true: what would mend the shadows of all of `kept` is looked for, too */
     sp_run run;
 } sp_place_options;
 
@@ -171,7 +181,7 @@ typedef struct {
 } sp_stage;
 
 /* Owned by the caller. */
-typedef struct {
+struct sp_proposal {
     sp_objective objective; /* the options' */
     sp_layout *layout;      /* the proposal, refined */
     bool *fittings;         /* [layout->count]: neither kept nor in a port, so that it wants a fitting made for it */
@@ -219,7 +229,8 @@ typedef struct {
     /* Names of stages that were cut short or left out, for lack of time or because progress said so. */
     size_t cut_count;
     char cut[SP_STAGES_CUT][SP_STAGE_NAME];
-} sp_proposal;
+    sp_found *found; /* its layout and those of the fronts, for other options' `known` */
+};
 
 #define SP_MOUNTING_POINTS                                                                                             \
     100000 /* that all mounts may give together: beyond that a spacing is taken for a mistake                          \

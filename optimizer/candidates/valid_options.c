@@ -128,5 +128,7 @@ bool sp_options_are_valid(const sp_place_options *options, sp_error *error)
     for (size_t i = 0; i < options->type_count; i++)
         if (!is_adjustable(options->types[i], error))
             return false;
+    if (!sp_is_listed(of_place, "known", options->known, options->known_count, error))
+        return false;
     return !options->kept || sp_layout_is_valid(options->kept, error);
 }

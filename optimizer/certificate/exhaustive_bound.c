@@ -1,19 +1,24 @@
 #include "certificate/exhaustive_bound.h"
 
+#include "scoring/scoring.h"
 #include "search/exhaustive.h"
 
 #include <math.h>
 
 #define UPWARDS (1 + 1e-11) /* more than sums of areas in another order can lie apart */
 
-/* Whether all nozzles of the front stand as a candidate does: refinement has moved none. */
-static bool holds_candidates(const sp_front *front)
+/* Whether all nozzles of the front stand as a candidate that is looked at does: refinement has moved none, nor was it
+ * found by another placement alone. */
+static bool holds_candidates(const sp_search *search, const sp_front *front)
 {
     bool unmoved = true;
     for (size_t i = 0; i <= front->by_water.count; i++) {
         const sp_partial *partial = sp_front_partial(front, i);
-        for (size_t k = 0; k < partial->count; k++)
-            unmoved = unmoved && sp_nozzles_spray_alike(&partial->items[k].nozzle, &partial->items[k].origin);
+        for (size_t k = 0; k < partial->count; k++) {
+            const sp_placed *placed = &partial->items[k];
+            unmoved = unmoved && sp_placed_is_candidate(placed) &&
+                      sp_search_knows(search, placed->pose.site, placed->pose.variant);
+        }
     }
     return unmoved;
 }
@@ -46,7 +51,7 @@ bool sp_exhaustive_bound(sp_certifying *c, bool *known, sp_error *error)
     const sp_search *search = c->problem.search;
     sp_exhaustive every = {.count = 0};
     *known = false;
-    if (!holds_candidates(c->problem.front))
+    if (!holds_candidates(search, c->problem.front))
         return true;
     bool done = sp_exhaustive_create(search, search->coarse, search->outlay_most * (1 + SP_ROUNDING), c->deadline,
                                      "certificate", &every, error);

@@ -13,8 +13,9 @@ struct sp_footprints {
     sp_footprint **added; /* [added_count], of nozzles in no candidate's pose */
     size_t added_count, added_capacity;
     double bytes;
-    bool closed;  /* what is not known brings nothing */
-    bool lacking; /* some are not known */
+    size_t filled; /* poses of lower numbers, of types that no sweep knows, were all traced */
+    bool closed;   /* what is not known brings nothing */
+    bool lacking;  /* some are not known */
     pthread_mutex_t lock;
     sp_error failure;
 };
@@ -142,10 +143,19 @@ const sp_footprint *sp_footprints_add(sp_footprints *footprints, const sp_nozzle
     return footprints->added[footprints->added_count++] = footprint;
 }
 
+bool sp_footprints_include(sp_footprints *footprints, sp_pose pose, sp_error *error)
+{
+    size_t number = sp_candidates_number(footprints->search.candidates, footprints->search.sites, pose);
+    sp_error own = {0};
+    if (!known(footprints, number))
+        keep(footprints, number, trace(footprints, pose, &own), &own);
+    return sp_footprints_sound(footprints, error);
+}
+
 bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant)
 {
     const sp_search *search = &footprints->search;
-    return footprints->known[sp_candidates_number(search->candidates, search->sites, (sp_pose){site, variant, 0, 0})];
+    return sp_candidates_number(search->candidates, search->sites, (sp_pose){site, variant, 0, 0}) < footprints->filled;
 }
 
 bool sp_footprints_whole(const sp_footprints *footprints)
@@ -215,6 +225,8 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_err
         for (size_t i = first; i < end; i++)
             sp_footprints_look(footprints, poses[i]);
         done = has_room(footprints, count, error) && sp_footprints_sound(footprints, error);
+        footprints->filled =
+            1 + sp_candidates_number(footprints->search.candidates, footprints->search.sites, poses[end - 1]);
     }
     footprints->closed = true;
     free(poses);

@@ -20,6 +20,8 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_err
 const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);
 /* That of a nozzle wherever it stands, owned by the footprints, too; NULL on error. For one thread at a time. */
 const sp_footprint *sp_footprints_add(sp_footprints *footprints, const sp_nozzle *nozzle, sp_error *error);
+/* Traces this one also where it was left out; the others of its variant at its site stay so. For one thread. */
+bool sp_footprints_include(sp_footprints *footprints, sp_pose pose, sp_error *error);
 /* False of a variant's poses at a site that were left out. */
 bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t variant);
 /* False where any were left out. Accepts NULL, which left out none. */

@@ -9,7 +9,8 @@
 typedef struct {
     sp_nozzle nozzle;
     sp_nozzle origin;          /* the candidate that it was, from which refinement's limits count */
-    sp_pose pose;              /* the same, where it is still there: of a type that no sweep knows */
+    sp_pose pose;              /* the same, where it is still there: of a type that no sweep knows; of no site where
+                                * another placement had that candidate, not this one */
     const sp_footprint *moved; /* of such a type that stands elsewhere in the end, on the search's patches; else NULL */
     sp_site site;              /* where it is now: a surface's axis changes along it */
     double flow;               /* m³/s */
@@ -73,6 +74,11 @@ bool sp_partial_affords(const sp_search *search, const sp_partial *partial, uint
 bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount);
 /* The nozzle that sprays most of those with the edges of this pose's; NULL: none. */
 const sp_placed *sp_partial_edges_at(const sp_search *search, const sp_partial *partial, sp_pose pose);
+/* True where it stands in its pose, unmoved. */
+static inline bool sp_placed_is_candidate(const sp_placed *placed)
+{
+    return placed->pose.site != SP_NONE && sp_nozzles_spray_alike(&placed->nozzle, &placed->origin);
+}
 /* Named nozzles, the kept ones first. */
 sp_layout *sp_partial_to_layout(const sp_search *search, const sp_partial *partial, sp_error *error);
 

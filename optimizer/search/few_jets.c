@@ -22,7 +22,9 @@ uint64_t sp_few_jets(const sp_search *search, const sp_evaluator *fine)
 bool sp_aim_by_few_jets(sp_front *front, const sp_search *search, double target, double area, sp_error *error)
 {
     double flattery = front->measured.area - area;
-    return sp_front_count_best(front, search, area, error) &&
+    sp_front_point counted = front->measured;
+    counted.area = area;
+    return sp_front_count(front, search, &front->best, &counted, error) &&
            (!front->draft_jets || sp_front_aim(front, search, target + flattery, error));
 }
 

@@ -199,16 +199,16 @@ bool sp_front_measure_ahead(sp_front *front, const sp_search *search, const sp_p
     return true;
 }
 
-bool sp_front_count_best(sp_front *front, const sp_search *search, double area, sp_error *error)
+bool sp_front_count(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
+                    sp_error *error)
 {
     sp_front_list *list = &front->counted;
     sp_partial copy;
     if (!sp_grow(&list->entries, &list->capacity, list->count + 1, sizeof *list->entries))
         return sp_fail_memory(error);
-    if (!sp_partial_copy(search, &front->best, &copy, error))
+    if (!sp_partial_copy(search, partial, &copy, error))
         return false;
-    list->entries[list->count] = (sp_front_entry){front->measured, copy};
-    list->entries[list->count++].point.area = area;
+    list->entries[list->count++] = (sp_front_entry){*point, copy};
     return true;
 }
 

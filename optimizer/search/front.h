@@ -62,8 +62,9 @@ static inline bool sp_front_saves(const sp_front *front)
 sp_front sp_front_anew(sp_front *front);
 /* True where a is better than b: by the objective among layouts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
-/* Keeps a copy of the best, with the area (m²) that it covers as the scene says, among what is counted. */
-bool sp_front_count_best(sp_front *front, const sp_search *search, double area, sp_error *error);
+/* Keeps a copy of a layout, with what the scene says of it, among what is counted. */
+bool sp_front_count(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
+                    sp_error *error);
 /* In the end, where nothing reaches the target and the objective saves: of the layouts that cover all but
  * SP_COVERAGE_TOLD as much as the best, that of least outlay becomes the best. Before, the best is to be the one that
  * covers most, from which the search climbs on. */

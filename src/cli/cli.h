@@ -201,6 +201,10 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
 /* As cli_fail, with the place in the scene of the setting that the error is about. */
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 
+/* alternatives_order.c: the order [count, at least 1] in which the scene's alternatives are placed: each after those of
+ * which it allows all layouts, of others the first one first. Malloc'd; NULL where memory runs out. */
+size_t *cli_order_alternatives(const sp_scene *scene);
+
 /* output.c: whether files of these names (the last is NULL) can be written where -o says, asked before the work that
  * they are to hold; layouts that were edited are not written over without --force. `scene`, whose files they must not
  * replace, may be NULL. True without -o. */

@@ -75,20 +75,29 @@ static bool write_layout(const cli_options *options, const sp_scene *scene, cons
     return good;
 }
 
+/* Whose place in the scene its file is called after. */
+static size_t alternative_named(const sp_scene *scene, const char *name)
+{
+    size_t at = 0;
+    while (strcmp(sp_scene_alternative_name(scene, at), name) != 0)
+        at++;
+    return at;
+}
+
 /* The main layout, and those of the alternatives that it was chosen from. */
 static bool write_layouts(const cli_options *options, const sp_result *result, const sp_scene *scene,
                           const sp_layout *layout, sp_output *output, sp_error *error)
 {
     bool good = true;
-    for (size_t i = 0, alternative = 0; good && i < result->design_count; i++) {
+    for (size_t i = 0; good && i < result->design_count; i++) {
         const sp_design *design = &result->designs[i];
         char name[CLI_LAYOUT_NAME];
-        if (design->alternative)
-            cli_layout_name(alternative++, name);
-        if (design->layout == layout)
+        if (design->layout == layout) {
             good = write_layout(options, scene, design, "layout.yaml", output, error);
-        else if (design->alternative)
+        } else if (design->alternative) {
+            cli_layout_name(alternative_named(scene, design->name), name);
             good = write_layout(options, scene, design, name, output, error);
+        }
     }
     return good;
 }

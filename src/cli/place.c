@@ -12,7 +12,8 @@
 
 typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
-    sp_proposal **proposals; /* [count], one for each alternative, or the only one */
+    sp_proposal **proposals; /* [count], one for each alternative in their order, or the only one */
+    size_t *which;           /* [count], the alternative that each is for */
     size_t count, best;
     bool ended;    /* some rank was interrupted, or could not go on */
     double ending; /* s, that what follows the search will take; 0 without a limit */
@@ -47,8 +48,9 @@ static size_t mender(const sp_scene *scene)
 /* None where that alternative was not come to, or was counted on other texels, whose shadows are others. */
 static void give_own_remedies(const cli_scene *opened, const placement *found, sp_design *design)
 {
-    size_t which = mender(opened->scene);
-    const sp_proposal *proposal = which < found->count ? found->proposals[which] : NULL;
+    const sp_proposal *proposal = NULL;
+    for (size_t i = 0; i < found->count; i++)
+        proposal = found->which[i] == mender(opened->scene) ? found->proposals[i] : proposal;
     if (!proposal || evaluator_of(opened, proposal) != own_evaluator(opened, found))
         return;
     design->remedies = proposal->own_remedies;
@@ -68,7 +70,7 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
     for (size_t i = 0; i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
-        const char *name = alternatives ? sp_scene_alternative_name(opened->scene, i) : "proposed";
+        const char *name = alternatives ? sp_scene_alternative_name(opened->scene, found->which[i]) : "proposed";
         if (!alternatives) {
             designs[count] = cli_design(opened, "greedy", evaluator, proposal->greedy, proposal->greedy_coverage);
             designs[count++].costs = proposal->greedy_costs;
@@ -245,30 +247,57 @@ static void tell_alternative(const cli_scene *opened, size_t index, sp_error *er
                  sp_scene_alternative_name(opened->scene, index));
 }
 
-/* One proposal for each alternative, as many as there is time for before an interruption; or the only one. */
+/* Before those of its like that come later in the scene. */
+static void keep_proposal(placement *found, sp_proposal *proposal, size_t which)
+{
+    size_t at = found->count++;
+    for (; at > 0 && found->which[at - 1] > which; at--) {
+        found->proposals[at] = found->proposals[at - 1];
+        found->which[at] = found->which[at - 1];
+    }
+    found->proposals[at] = proposal;
+    found->which[at] = which;
+}
+
+/* For alternative `which`, or the only one; `to_come`: searches, this one among them. */
+static bool propose_one(const cli_options *options, const cli_scene *opened, placement *found, size_t which,
+                        size_t to_come, sp_error *error)
+{
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
+    sp_place_options how =
+        alternatives ? sp_scene_alternative_options(opened->scene, which) : sp_scene_place_options(opened->scene);
+    how.run = cli_search_run(options);
+    how.run.time_limit = time_for_search(options, found, to_come);
+    how.mend_kept = which == mender(opened->scene);
+    how.memory = options->memory;
+    how.prove = options->prove;
+    how.known_count = found->count;
+    how.known = (const sp_proposal *const *)found->proposals;
+    sp_proposal *proposal = sp_place(opened->evaluator, &how, error);
+    if (proposal)
+        keep_proposal(found, proposal, which);
+    else
+        tell_alternative(opened, which, error);
+    return proposal;
+}
+
+/* One proposal for each alternative, as many as there is time for before an interruption; or the only one. Those that
+ * allow less come first, so that the others know what they found. */
 static bool propose(const cli_options *options, const cli_scene *opened, placement *found, sp_error *error)
 {
     size_t alternatives = sp_scene_alternative_count(opened->scene), count = alternatives ? alternatives : 1;
-    sp_place_options all = sp_scene_place_options(opened->scene);
+    size_t *order = cli_order_alternatives(opened->scene);
     found->proposals = calloc(count, sizeof(sp_proposal *));
-    if (!found->proposals)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < count && !found->ended; i++) {
-        sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
-        how.run = cli_search_run(options);
-        how.mend_kept = i == mender(opened->scene);
+    found->which = calloc(count, sizeof *found->which);
+    bool good = (order && found->proposals && found->which) || sp_fail_memory(error);
+    for (size_t i = 0; good && i < count && !found->ended; i++) {
         cli_progress_round(i);
-        how.run.time_limit = time_for_search(options, found, count - i);
-        how.memory = options->memory;
-        how.prove = options->prove;
-        found->proposals[i] = sp_place(opened->evaluator, &how, error);
-        if (!found->proposals[i]) {
-            tell_alternative(opened, i, error);
-            return false;
-        }
-        found->count++;
-        found->ended = sp_ranks_any(cli_ranks(), ends());
+        good = propose_one(options, opened, found, order[i], count - i, error);
+        found->ended = good && sp_ranks_any(cli_ranks(), ends());
     }
+    free(order);
+    if (!good)
+        return false;
     found->best = sp_place_best((const sp_proposal *const *)found->proposals, found->count);
     return true;
 }
@@ -437,6 +466,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
     for (size_t i = 0; i < found.count; i++)
         sp_proposal_destroy(found.proposals[i]);
     free(found.proposals);
+    free(found.which);
     sp_coverage_destroy(found.manual);
     return status;
 }
