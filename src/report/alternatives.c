@@ -288,10 +288,12 @@ void sp_page_alternatives(const sp_page *page, sp_text *text)
         return;
     sp_text_add(text, "<section id=\"alternatives\"><h2>Alternatives</h2>\n");
     add_table(page, text);
-    sp_text_add(text, "<p class=\"note\">A new fitting is a place of a nozzle that is not a port and is not kept from "
-                      "the layout there is: a weld, or a place on a pipe. What was found need not be the best: the "
-                      "<a href=\"#front\">chart</a> and the <a href=\"#certificate\">bounds</a> tell how much better "
-                      "each could be.</p>\n");
+    sp_text_add(text,
+                "<p class=\"note\">A new fitting is a place of a nozzle that is not a port and is not kept from "
+                "the layout there is: a weld, or a place on a pipe. What was found need not be the best%s.</p>\n",
+                sp_page_proves(page) ? ": the <a href=\"#front\">chart</a> and the <a href=\"#certificate\">bounds</a> "
+                                       "tell how much better each could be"
+                                     : "");
     add_fittings(page, text);
     sp_text_add(text, "</section>\n");
 }

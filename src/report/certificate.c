@@ -88,7 +88,7 @@ static void add_proofs(const sp_page *page, sp_text *text)
     }
 }
 
-static bool proves(const sp_page *page)
+bool sp_page_proves(const sp_page *page)
 {
     bool any = false;
     for (size_t i = 0; i < page->result->design_count; ++i) {
@@ -100,7 +100,7 @@ static bool proves(const sp_page *page)
 
 void sp_page_certificate(const sp_page *page, sp_text *text)
 {
-    if (!proves(page))
+    if (!sp_page_proves(page))
         return;
     sp_text_add(text, "<section id=\"certificate\"><h2>How good any layout could be</h2>\n");
     if (page->alternatives)

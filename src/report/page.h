@@ -98,8 +98,9 @@ void sp_page_cost_cells(sp_text *text, const sp_nozzle_figures *nozzle, double w
 void sp_page_front_chart(const sp_page *page, sp_text *text);
 /* nozzle_counts.c: coverage against number of nozzles; nothing without a front. */
 void sp_page_nozzle_counts(const sp_page *page, sp_text *text);
-/* certificate.c: what is proved about how good any layout could be; nothing where nothing is. */
+/* certificate.c: what is proved about how good any layout could be; nothing where nothing is; and whether any is. */
 void sp_page_certificate(const sp_page *page, sp_text *text);
+bool sp_page_proves(const sp_page *page);
 /* colour_bar.c: what the pictures' colours mean, as a drawing. */
 void sp_page_colour_bar(const sp_page *page, sp_text *text);
 /* pictures.c: three views of every design, with the colour bar. */

@@ -48,6 +48,15 @@ static bool covers_most(const sp_result *result)
     return true;
 }
 
+/* Whether the search of some alternative ended before its time, so that it might have been the best. */
+static bool is_cut_short(const sp_result *result)
+{
+    bool any = false;
+    for (size_t i = 0; i < result->design_count; ++i)
+        any |= result->designs[i].alternative && result->designs[i].alternative->interrupted;
+    return any;
+}
+
 void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
 {
     static const char *const best[] = {[SP_OBJECTIVE_AREA_PER_WATER] = "cleans most area per water",
@@ -60,14 +69,16 @@ void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
     text[0] = 0;
     if (!proposal || !sp_result_has_alternatives(result))
         return;
+    const char *late = is_cut_short(result) ? ", of what the time allowed to find" : "";
     double asked = 100 * proposal->asked_area / proposal->coverage->area;
     if (proposal->coverage->covered_area >= proposal->asked_area)
-        snprintf(text, SP_CHOICE_TEXT, "of those that cover the %.4g %% asked for, it %s", asked,
-                 (sp_result_is_costly(result) ? cheapest : best)[proposal->objective]);
+        snprintf(text, SP_CHOICE_TEXT, "of those that cover the %.4g %% asked for, it %s%s", asked,
+                 (sp_result_is_costly(result) ? cheapest : best)[proposal->objective], late);
     else if (covers_most(result))
-        snprintf(text, SP_CHOICE_TEXT, "none covers the %.4g %% asked for, and of all it covers most", asked);
+        snprintf(text, SP_CHOICE_TEXT, "none covers the %.4g %% asked for, and of all it covers most%s", asked, late);
     else
         snprintf(text, SP_CHOICE_TEXT,
-                 "none covers the %.4g %% asked for; it %s within %.1g points of the most covered", asked,
-                 sp_result_is_costly(result) ? "has the least price" : "needs least water", 100 * SP_COVERAGE_TOLD);
+                 "none covers the %.4g %% asked for; it %s within %.1g points of the most covered%s", asked,
+                 sp_result_is_costly(result) ? "has the least price" : "needs least water", 100 * SP_COVERAGE_TOLD,
+                 late);
 }

@@ -345,6 +345,34 @@ static void time_is_shared(void **state)
     forget(&done);
 }
 
+/* Whatever the scene names first: what is allowed there, too, is found there, too, and which is proposed is said to hang
+ * on the time. Nothing is told of bounds that nobody worked out. */
+static void nested_ones_are_never_worse(void **state)
+{
+    (void)state;
+    write_room("nested.yaml", "", "max_coverage", ", cost: 1 L/min",
+               "  alternatives:\n"
+               "    - {name: all of it}\n"
+               "    - {name: walls, mounts: [walls]}\n"
+               "    - {name: walls and P2, mounts: [P2, walls]}\n"
+               "    - {name: one on walls, mounts: [{mount: walls, max_nozzles: 1}]}\n");
+    json_t *found = expect_json("place nested.yaml --json -o nested --time-limit 0.001", 4), *layout;
+    static const char *const rising[] = {"one on walls", "walls", "walls and P2", "all of it"};
+    double before = 0;
+    for (size_t k = 0; k < 4; k++) {
+        layout = named(found, "layouts", rising[k]);
+        assert_true(number(layout, "coverage") >= before);
+        before = number(layout, "coverage");
+    }
+    assert_string_equal(text_of(json_array_get(json_object_get(found, "layouts"), 0), "name"), "all of it");
+    assert_non_null(strstr(text_of(found, "proposed_for"), "covers most, of what the time allowed to find"));
+    char *page = read_file("nested/report.html", NULL);
+    assert_non_null(strstr(page, "covers most, of what the time allowed to find. It "));
+    assert_non_null(strstr(page, "What was found need not be the best.</p>"));
+    free(page);
+    json_decref(found);
+}
+
 /* A fault of one alternative names it. */
 static void a_fault_names_its_alternative(void **state)
 {
@@ -374,6 +402,7 @@ int main(void)
         cmocka_unit_test(what_is_read_is_not_replaced),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(time_is_shared),
+        cmocka_unit_test(nested_ones_are_never_worse),
         cmocka_unit_test(a_fault_names_its_alternative),
     };
     return cmocka_run_group_tests_name("alternatives of place", tests, run_once, forget_run);
