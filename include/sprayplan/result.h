@@ -215,7 +215,7 @@ SP_API bool sp_result_is_costly(const sp_result *result);
 /* The design whose layout the result's proposal is; SP_UNKNOWN where there is none. */
 SP_API size_t sp_result_proposed(const sp_result *result);
 /* Why that is proposed and not another alternative, as a clause of plain text; "" without alternatives. */
-#define SP_CHOICE_TEXT 120
+#define SP_CHOICE_TEXT 160
 SP_API void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT]);
 
 /* What layouts were looked for within, as a clause of plain text: "2 nozzles (max_nozzles) and 40 L/min (max_water)";
