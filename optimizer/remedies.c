@@ -1,6 +1,6 @@
 #include "remedies.h"
 
-#include "attainable/coarse_patch.h"
+#include "attainable/patch_at.h"
 #include "scoring/partial_packing.h"
 #include "spray/criterion.h"
 

@@ -2,7 +2,11 @@
  *
  * A few long pieces of work side by side (the iterations of a parallel loop) leave threads idle that have none, or
  * whose own was short. What such a piece does in parts goes to these: within a parallel region the parts are tasks,
- * which the region's threads take up that wait at its end. */
+ * which the region's threads take up that wait at its end.
+ *
+ * Results are the same bytes for any number of threads. Parts therefore write to places of their own, and sums of
+ * floating-point numbers are made over parts whose number the threads do not decide, added up in their order
+ * (refine/smooth_sum.h), or of each patch by one thread in the order of the jets (spray/forward.c). */
 #ifndef SPRAYPLAN_TEAM_H
 #define SPRAYPLAN_TEAM_H
 

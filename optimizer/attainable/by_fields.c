@@ -1,6 +1,6 @@
 #include "attainable/by_fields.h"
 
-#include "attainable/coarse_patch.h"
+#include "attainable/patch_at.h"
 #include "scoring/mount_capacity.h"
 #include "scoring/scoring.h"
 

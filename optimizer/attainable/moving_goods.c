@@ -1,6 +1,6 @@
 #include "attainable/moving_goods.h"
 
-#include "attainable/coarse_patch.h"
+#include "attainable/patch_at.h"
 #include "scoring/scoring.h"
 #include "spray/criterion.h"
 

@@ -1,6 +1,6 @@
 #include "attainable/reflected.h"
 
-#include "attainable/coarse_patch.h"
+#include "attainable/patch_at.h"
 
 #include <stdlib.h>
 

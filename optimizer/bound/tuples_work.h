@@ -1,5 +1,6 @@
-/* What the files of sp_tuples share: tuples_pricing.c leaves out candidates by prices, tuples_rows.c makes sets of the
- * rest, tuples_grow.c chooses them one after the other, tuples_covered.c counts exactly what comes above the target. */
+/* What the files of sp_tuples share: tuples_eliminate.c leaves out candidates by prices, tuples_rows.c makes sets of
+ * the rest, tuples_enumerate.c chooses them one after the other, tuples_covered.c counts exactly what comes above the
+ * target. */
 #ifndef OPTIMIZER_TUPLES_WORK_H
 #define OPTIMIZER_TUPLES_WORK_H
 

@@ -1,6 +1,6 @@
 #include "certificate/certificate.h"
 
-#include "certificate/aim_bound.h"
+#include "certificate/every_aim.h"
 #include "certificate/exhaustive_bound.h"
 #include "certificate/front_bounds.h"
 #include "certificate/least_water.h"
@@ -59,7 +59,7 @@ static bool lower_single(sp_certifying *c, sp_error *error)
     size_t lightest = c->bound.lightest;
     return sp_bound_lower_single(&c->bound, error) &&
            (lightest > c->problem.cover.water ||
-            sp_priced_waters_note(&c->priced_waters, (double)lightest, c->bound.by_water[lightest]) ||
+            sp_proved_waters_note(&c->proved_waters, (double)lightest, c->bound.by_water[lightest]) ||
             sp_fail_memory(error));
 }
 
@@ -123,7 +123,7 @@ static bool certify(sp_certifying *c, sp_front *front, sp_certificate *certifica
                               &c->bound.rows,    c->problem.costs, c->problem.cost_count};
     /* film has no discs of aims: what runs down depends on all that hits above; and footprints are of single poses */
     bool aims = !c->problem.search->runoffs && !c->problem.search->footprints;
-    if (aims && !sp_aim_bound(&task, front, certificate, error))
+    if (aims && !sp_every_aim(&task, front, certificate, error))
         return false;
     if (known || !c->problem.search->options->prove)
         return true;

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_EXHAUSTIVE_BOUND_H
 #define OPTIMIZER_EXHAUSTIVE_BOUND_H
 
-#include "certificate/certifying.h"
+#include "certificate/bound_at_water.h"
 
 /* Lowers all bounds to what the best layouts within them cover; *known is false, and nothing lowered, where layouts are
  * too many, or the front has nozzles that are no candidates. */

@@ -97,7 +97,7 @@ static size_t widest_gap(const sp_certifying *c)
     double most = GAP_LEAST;
     for (size_t i = 0; i < c->point_count; i++) {
         const sp_certified_point *own = &c->points[i];
-        double least = fmax(sp_priced_waters_chord(&c->priced_waters, (double)own->water), own->found);
+        double least = fmax(sp_proved_waters_chord(&c->proved_waters, (double)own->water), own->found);
         double gain = 1 - least / c->bound.by_water[own->water];
         if (gain > most) {
             most = gain;

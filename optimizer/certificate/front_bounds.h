@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_FRONT_BOUNDS_H
 #define OPTIMIZER_FRONT_BOUNDS_H
 
-#include "certificate/certifying.h"
+#include "certificate/bound_at_water.h"
 
 /* Takes the points in turn, those first where few nozzles leave much open: prices for each, and looks at its layouts.
  */

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_LEAST_WATER_H
 #define OPTIMIZER_LEAST_WATER_H
 
-#include "certificate/certifying.h"
+#include "certificate/bound_at_water.h"
 
 /* Lowers bounds between where they first allow to cover `area` (m²) and the proposal's water, `most`, the nearer to the
  * former the more trials have yielded nothing. */

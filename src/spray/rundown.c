@@ -1,6 +1,6 @@
 #include "rundown.h"
 
-#include "stream_discs.h"
+#include "stream_spread.h"
 #include "film/laminar.h"
 #include "mesh/diagnosis/flaw.h"
 #include "nozzle/pattern.h"
@@ -203,16 +203,16 @@ static bool add_hits(const sp_evaluator *walls, const sp_layout *layout, double 
 static bool add_streams(const sp_evaluator *walls, const sp_layout *streams, double *arriving, sp_error *error)
 {
     const sp_fluid *liquid = &walls->setup.liquid;
-    sp_stream_discs discs;
+    sp_stream_spread discs;
     double *hits = malloc((walls->patches.count + 1) * sizeof *hits);
-    bool done = sp_stream_discs_create(&walls->patches, &discs, error) && (hits || sp_fail_memory(error));
+    bool done = sp_stream_spread_create(&walls->patches, &discs, error) && (hits || sp_fail_memory(error));
     for (size_t i = 0; done && i < streams->count; i++) {
         sp_layout one = {.count = 1, .nozzles = &streams->nozzles[i]};
         done = add_hits(walls, &one, hits, error);
         if (done)
-            sp_stream_discs_add(&discs, liquid, sp_nozzle_flow(one.nozzles, liquid), hits, arriving);
+            sp_stream_spread_add(&discs, liquid, sp_nozzle_flow(one.nozzles, liquid), hits, arriving);
     }
-    sp_stream_discs_free(&discs);
+    sp_stream_spread_free(&discs);
     free(hits);
     return done;
 }

@@ -1,5 +1,5 @@
 /* Film, or the dose of goods that move, nozzle by nozzle, for who adds up those of many layouts. */
-#include "stream_discs.h"
+#include "stream_spread.h"
 #include "nozzle/pattern.h"
 #include "rundown.h"
 
@@ -8,7 +8,7 @@
 
 struct sp_runoff {
     const sp_evaluator *walls;
-    sp_stream_discs discs;
+    sp_stream_spread discs;
     double *arriving;  /* [patches], m³/s */
     double *spread;    /* [patches], the same once streams have spread over their discs */
     double *flow;      /* the film's own */
@@ -23,7 +23,7 @@ static bool create_film(sp_runoff *runoff, sp_error *error)
     runoff->spread = malloc(room * sizeof *runoff->spread);
     runoff->flow = malloc(sp_film_flows(walls->rundown->film) * sizeof *runoff->flow);
     runoff->per_width = malloc(room * sizeof *runoff->per_width);
-    return sp_stream_discs_create(&walls->patches, &runoff->discs, error) &&
+    return sp_stream_spread_create(&walls->patches, &runoff->discs, error) &&
            ((runoff->spread && runoff->flow && runoff->per_width) || sp_fail_memory(error));
 }
 
@@ -54,7 +54,7 @@ void sp_runoff_destroy(sp_runoff *runoff)
 {
     if (!runoff)
         return;
-    sp_stream_discs_free(&runoff->discs);
+    sp_stream_spread_free(&runoff->discs);
     free(runoff->arriving);
     free(runoff->spread);
     free(runoff->flow);
@@ -88,7 +88,7 @@ void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, 
     if (sp_type_is_stream(type)) {
         from = runoff->spread;
         memset(from, 0, count * sizeof *from);
-        sp_stream_discs_add(&runoff->discs, &walls->setup.liquid, flow, runoff->arriving, from);
+        sp_stream_spread_add(&runoff->discs, &walls->setup.liquid, flow, runoff->arriving, from);
     }
     sp_film_run_in(walls->rundown->film, from, runoff->flow, runoff->per_width, NULL);
     memset(runoff->arriving, 0, count * sizeof *runoff->arriving);

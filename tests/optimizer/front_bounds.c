@@ -2,7 +2,7 @@
 #include "prepared.h"
 
 #include "certificate/front_bounds.h"
-#include "certificate/priced_waters.h"
+#include "certificate/proved_waters.h"
 #include "scoring/footprints.h"
 
 #define NOZZLES 12
@@ -11,16 +11,16 @@
 static void chords_join_what_was_priced(void **state)
 {
     (void)state;
-    sp_priced_waters pricings = {0};
+    sp_proved_waters waters = {0};
     /* not in their order, one twice */
-    static const sp_priced_water noted[] = {{0, 1}, {40, 9}, {10, 5}, {40, 8}, {20, 7}, {10, 6}};
+    static const sp_proved_water noted[] = {{0, 1}, {40, 9}, {10, 5}, {40, 8}, {20, 7}, {10, 6}};
     for (size_t i = 0; i < sizeof noted / sizeof *noted; i++)
-        assert_true(sp_priced_waters_note(&pricings, noted[i].water, noted[i].bound));
-    assert_int_equal(pricings.count, 4);
+        assert_true(sp_proved_waters_note(&waters, noted[i].water, noted[i].bound));
+    assert_int_equal(waters.count, 4);
     static const double at[][2] = {{0, 1}, {5, 3}, {10, 5}, {15, 6}, {20, 7}, {30, 7.5}, {40, 8}, {100, 8}};
     for (size_t i = 0; i < sizeof at / sizeof *at; i++)
-        assert_true(fabs(sp_priced_waters_chord(&pricings, at[i][0]) - at[i][1]) < 1e-12);
-    sp_priced_waters_free(&pricings);
+        assert_true(fabs(sp_proved_waters_chord(&waters, at[i][0]) - at[i][1]) < 1e-12);
+    sp_proved_waters_free(&waters);
 }
 
 /* A hall with nozzles on a grid under its ceiling. */
@@ -95,7 +95,7 @@ static size_t count_gaps(const sp_certifying *c)
     size_t count = 0;
     for (size_t i = 0; i < c->point_count; i++) {
         double water = (double)c->points[i].water, bound = c->bound.by_water[c->points[i].water];
-        double least = fmax(sp_priced_waters_chord(&c->priced_waters, water), c->points[i].found);
+        double least = fmax(sp_proved_waters_chord(&c->proved_waters, water), c->points[i].found);
         assert_true(bound >= c->points[i].found);
         count += bound * (1 - GAP) > least;
     }
@@ -123,7 +123,7 @@ static void points_between_are_priced_for(void **state)
     assert_int_equal(count_gaps(&c), 0);
     assert_true(c.bound.by_water[most / 3] < 0.8 * before);
     /* few were enough: what is proved for one water holds beyond it */
-    assert_true(c.priced_waters.count - 2 < open);
+    assert_true(c.proved_waters.count - 2 < open);
     /* and the reach is what it was */
     assert_true(c.bound.reach >= 1 && c.bound.reach <= 1);
     sp_certifying_free(&c);

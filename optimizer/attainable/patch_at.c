@@ -1,4 +1,4 @@
-#include "attainable/coarse_patch.h"
+#include "attainable/patch_at.h"
 
 uint32_t sp_patch_of(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
 {

@@ -1,4 +1,4 @@
-#include "certificate/certifying.h"
+#include "certificate/bound_at_water.h"
 
 #include "bound/tuples.h"
 #include "certificate/best_poses.h"
@@ -19,7 +19,7 @@
 void sp_certifying_free(sp_certifying *c)
 {
     free(c->points);
-    sp_priced_waters_free(&c->priced_waters);
+    sp_proved_waters_free(&c->proved_waters);
     sp_bound_free(&c->bound);
     sp_problem_free(&c->problem);
 }
@@ -50,7 +50,7 @@ bool sp_certifying_prepare(sp_certifying *c, sp_error *error)
     problem->cover.user = c;
     c->point_count = problem->front->by_water.count + 1;
     c->points = calloc(c->point_count, sizeof *c->points);
-    if (!c->points || !sp_priced_waters_note(&c->priced_waters, 0, problem->cover.base))
+    if (!c->points || !sp_proved_waters_note(&c->proved_waters, 0, problem->cover.base))
         return sp_fail_memory(error);
     for (size_t i = 0; i < c->point_count; i++) {
         c->points[i].water = sp_problem_budget(problem, sp_front_partial(problem->front, i)->outlay);
@@ -76,7 +76,7 @@ bool sp_lower_bound(sp_certifying *c, size_t water, size_t rounds, sp_error *err
     for (size_t round = 0; round < rounds && goes_on(c); round++) {
         if (!sp_bound_lower(&c->bound, water, error))
             return false;
-        if (c->bound.complete && !sp_priced_waters_note(&c->priced_waters, (double)water, c->bound.proved))
+        if (c->bound.complete && !sp_proved_waters_note(&c->proved_waters, (double)water, c->bound.proved))
             return sp_fail_memory(error);
         if (c->bound.closed && round >= ROUNDS_STRENGTHENED)
             break;

@@ -1,6 +1,6 @@
 /* Bounds that hold for every aim at the candidates' mounting points, not only for the candidates'. */
-#ifndef OPTIMIZER_AIM_BOUND_H
-#define OPTIMIZER_AIM_BOUND_H
+#ifndef OPTIMIZER_EVERY_AIM_H
+#define OPTIMIZER_EVERY_AIM_H
 
 #include "bound/bound.h"
 #include "search/front.h"
@@ -20,6 +20,6 @@ typedef struct {
 } sp_aim_task;
 
 /* Fills certificate->every_aim, and every_aim_bound of the front's points, after all else of them. */
-bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error);
+bool sp_every_aim(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error);
 
 #endif

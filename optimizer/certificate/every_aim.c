@@ -1,4 +1,4 @@
-#include "certificate/aim_bound.h"
+#include "certificate/every_aim.h"
 
 #include "certificate/aim_pricing.h"
 #include "certificate/pose_rows.h"
@@ -265,7 +265,7 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
     certificate->every_aim.gap = (area - counted) / area;
 }
 
-bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
+bool sp_every_aim(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     aiming a = {.task = task, .front = front, .cover = *task->cover};
     a.cover.sums = NULL; /* flows between the candidates' come to others */

@@ -1,9 +1,9 @@
 /* A certificate in the making, and how the bound at one water is lowered. Its files: this one, the points of the front
  * (front_bounds.h), and the order in which all is done (certificate.c). */
-#ifndef OPTIMIZER_CERTIFYING_H
-#define OPTIMIZER_CERTIFYING_H
+#ifndef OPTIMIZER_BOUND_AT_WATER_H
+#define OPTIMIZER_BOUND_AT_WATER_H
 
-#include "certificate/priced_waters.h"
+#include "certificate/proved_waters.h"
 #include "certificate/problem.h"
 
 /* A layout of the front, or the proposal. */
@@ -26,7 +26,7 @@ typedef struct {
     sp_problem problem;
     sp_deadline *deadline;
     sp_bound bound;
-    sp_priced_waters priced_waters;
+    sp_proved_waters proved_waters;
     size_t point_count;
     sp_certified_point *points;
     double done; /* how far it all is, 0 to 1 */

@@ -1,6 +1,6 @@
 /* Which of the search's patches a place of the surface lies in. */
-#ifndef OPTIMIZER_COARSE_PATCH_H
-#define OPTIMIZER_COARSE_PATCH_H
+#ifndef OPTIMIZER_PATCH_AT_H
+#define OPTIMIZER_PATCH_AT_H
 
 #include <sprayplan/evaluator.h>
 

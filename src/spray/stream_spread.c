@@ -1,4 +1,4 @@
-#include "stream_discs.h"
+#include "stream_spread.h"
 
 #include "film/laminar.h"
 
@@ -14,7 +14,7 @@ static double part_of(const sp_patches *cells, double radius, uint32_t middle, u
 }
 
 /* Spreads a flow over the disc, cell by neighbouring cell, so that it does not come through a wall. */
-static void spread(sp_stream_discs *own, double radius, uint32_t middle, double flow, double *arriving)
+static void spread(sp_stream_spread *own, double radius, uint32_t middle, double flow, double *arriving)
 {
     const sp_patches *cells = own->cells;
     uint64_t disc = ++own->laid;
@@ -38,26 +38,26 @@ static void spread(sp_stream_discs *own, double radius, uint32_t middle, double 
         arriving[own->queue[i]] += flow * own->share[i] / all;
 }
 
-bool sp_stream_discs_create(const sp_patches *cells, sp_stream_discs *discs, sp_error *error)
+bool sp_stream_spread_create(const sp_patches *cells, sp_stream_spread *discs, sp_error *error)
 {
     size_t room = cells->count + 1;
-    *discs = (sp_stream_discs){.cells = cells,
-                               .queue = malloc(room * sizeof *discs->queue),
-                               .seen = calloc(room, sizeof *discs->seen),
-                               .share = malloc(room * sizeof *discs->share)};
+    *discs = (sp_stream_spread){.cells = cells,
+                                .queue = malloc(room * sizeof *discs->queue),
+                                .seen = calloc(room, sizeof *discs->seen),
+                                .share = malloc(room * sizeof *discs->share)};
     return (discs->queue && discs->seen && discs->share) || sp_fail_memory(error);
 }
 
-void sp_stream_discs_free(sp_stream_discs *discs)
+void sp_stream_spread_free(sp_stream_spread *discs)
 {
     free(discs->queue);
     free(discs->seen);
     free(discs->share);
-    *discs = (sp_stream_discs){0};
+    *discs = (sp_stream_spread){0};
 }
 
-void sp_stream_discs_add(sp_stream_discs *discs, const sp_fluid *liquid, double flow, const double *hits,
-                         double *arriving)
+void sp_stream_spread_add(sp_stream_spread *discs, const sp_fluid *liquid, double flow, const double *hits,
+                          double *arriving)
 {
     double radius = sp_film_jet_radius(liquid, flow);
     assert(radius > 0);
