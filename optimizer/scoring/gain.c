@@ -1,9 +1,6 @@
 #include "scoring/gain.h"
 
-#include "scoring/field.h"
 #include "scoring/footprints.h"
-
-#include <stdlib.h>
 
 double sp_field_gain(const sp_search *search, const sp_partial *partial, const float *field)
 {
@@ -37,27 +34,22 @@ static double rise(const sp_search *search, const sp_partial *partial, size_t p,
                     (sp_worth(search, wet, dry) - sp_worth(search, partial->wet[p], partial->dry[p])));
 }
 
-/* What one more adds by its footprint without edges. */
-static double footprint_rise(const sp_search *search, const sp_partial *partial, const sp_footprint *footprint)
+/* What one more adds whose edges this nozzle has, and that sprays `flow` times as much: what falls on all of a patch,
+ * by its prints or its field. Without another look at a view, of which a thread has one at a time. */
+static double shared_gain(const sp_search *search, const sp_partial *partial, const sp_placed *item, float flow)
 {
     double gain = 0;
-    for (size_t i = 0; i < footprint->count; i++) {
+    const sp_footprint *footprint = sp_type_is_uniform(item->nozzle.type) ? NULL : sp_placed_footprint(search, item);
+    for (size_t i = 0; footprint && i < footprint->count; i++) {
         const sp_print *print = &footprint->prints[i];
         float hit = partial->hit[print->patch], dry = partial->dry[print->patch];
-        sp_pour(search, print->hit, &hit, &dry);
-        gain += rise(search, partial, print->patch, hit, print->film, dry);
+        sp_pour(search, flow * print->hit, &hit, &dry);
+        gain += rise(search, partial, print->patch, hit, flow * print->film, dry);
     }
-    return gain * search->all;
-}
-
-/* What one more adds by its field, whose edges count where `there`, which shares them, is too weak to have any. */
-static double field_rise(const sp_search *search, const sp_partial *partial, const float *field, const float *there)
-{
-    double gain = 0;
-    for (size_t p = 0; p < search->patch_count; p++) {
+    for (size_t p = 0; !footprint && p < search->patch_count; p++) {
         float hit = partial->hit[p], dry = partial->dry[p];
-        sp_pour(search, there[p] < 0 ? sp_without_edge(field[p]) : field[p], &hit, &dry);
-        gain += rise(search, partial, p, hit, partial->film ? field[search->patch_count + p] : 0, dry);
+        sp_pour(search, flow * sp_without_edge(item->field[p]), &hit, &dry);
+        gain += rise(search, partial, p, hit, partial->film ? flow * item->field[search->patch_count + p] : 0, dry);
     }
     return gain * search->all;
 }
@@ -65,17 +57,10 @@ static double field_rise(const sp_search *search, const sp_partial *partial, con
 double sp_gain_at(const sp_search *search, const sp_partial *partial, sp_pose pose, double gain)
 {
     const sp_placed *there = gain > 0 ? sp_partial_edges_at(search, partial, pose) : NULL;
-    if (!there)
+    if (!there || !(there->flow > 0))
         return gain;
-    if (!sp_type_is_uniform(there->nozzle.type))
-        return footprint_rise(search, partial, sp_footprints_look(search->footprints, pose));
-    float *field = malloc((search->field_count + 1) * sizeof *field);
-    if (!field)
-        return gain;
-    sp_field_pose(search, pose, field);
-    gain = field_rise(search, partial, field, there->field);
-    free(field);
-    return gain;
+    double flow = search->candidates->variants[pose.variant].flow / there->flow;
+    return fmin(gain, shared_gain(search, partial, there, (float)flow));
 }
 
 sp_score sp_footprint_score(const sp_search *search, const sp_partial *partial, const sp_footprint *footprint)

@@ -17,7 +17,7 @@ sp_score sp_field_score(const sp_search *search, const sp_partial *partial, cons
 double sp_field_gain(const sp_search *search, const sp_partial *partial, const float *field);
 
 /* What one more nozzle in a pose adds: `gain`, which its field or footprint would, unless one with its edges stands
- * there already; of a stronger one whose type no sweep knows without its own edges. Without memory `gain`. */
+ * there already. Of one that sprays more than that and has edges where that is too weak for any, about. */
 double sp_gain_at(const sp_search *search, const sp_partial *partial, sp_pose pose, double gain);
 
 /* What a footprint adds to a partial layout. */
