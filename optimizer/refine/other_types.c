@@ -4,8 +4,6 @@
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 
-#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank layouts wrongly */
-
 static sp_nozzle as_variant(const sp_nozzle *nozzle, const sp_variant *variant)
 {
     return (sp_nozzle){.type = variant->type,
@@ -32,7 +30,7 @@ static bool look(const sp_search *search, sp_placed *placed, sp_error *error)
 static bool may_count(const sp_front *front, const sp_partial *partial)
 {
     double least = sp_front_saves(front) ? front->target : front->measured.area;
-    return partial->covered + front->bias >= least * (1 - MISJUDGED);
+    return partial->covered + front->bias >= least * (1 - SP_MISJUDGED);
 }
 
 /* The best layout with nozzle i as that variant, into the front. */

@@ -5,7 +5,7 @@
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
 #define NEAR 0.006        /* of the target: what may be missing for a layout to be near it */
 #define LEEWAY 0.03       /* more outlay that such a layout may take */
-#define NEAR_MOST 4       /* such layouts that are annealed, those of most outlay */
+#define ANNEALED_MOST 4   /* such layouts that are annealed, those of most outlay */
 #define ANNEALINGS 4      /* of each */
 #define ROUNDS 3          /* of all of that */
 #define SAVING 2e-3       /* less outlay, for another round */
@@ -116,7 +116,7 @@ static bool anneal_near(sp_refining *refining)
     sp_trials trials = {0};
     bool done = true;
     size_t near = 0;
-    for (size_t i = front->by_water.count; done && i-- > 0 && near < NEAR_MOST;) {
+    for (size_t i = front->by_water.count; done && i-- > 0 && near < ANNEALED_MOST;) {
         if (!sp_is_near_target(front, i))
             continue;
         near++;

@@ -5,8 +5,7 @@
 
 #include <stdlib.h>
 
-#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank layouts wrongly */
-#define TURNS_UP 6      /* amounts of water above the front's, evenly by their logarithm */
+#define TURNS_UP 6 /* amounts of water above the front's, evenly by their logarithm */
 
 static void trial_free(sp_trial *trial)
 {
@@ -50,7 +49,7 @@ bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *par
 static bool may_count(const sp_front *front, const sp_partial *partial)
 {
     for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= partial->outlay; i++)
-        if (front->by_water.entries[i].partial.covered > partial->covered * (1 + MISJUDGED))
+        if (front->by_water.entries[i].partial.covered > partial->covered * (1 + SP_MISJUDGED))
             return false;
     return true;
 }

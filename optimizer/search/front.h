@@ -10,6 +10,7 @@
 #include <math.h>
 
 #define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
+#define SP_MISJUDGED 3e-3  /* of what is covered: by so much the search's patches may rank layouts wrongly */
 
 typedef struct {
     sp_front_point point;

@@ -50,7 +50,7 @@ static sp_aim aim_of(const sp_emitter *emitter)
 
 /* Of what is known the arrivals that the spray takes. */
 static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emitter, double flow, unsigned stride,
-                      sp_combination *tally)
+                      sp_combination *combination)
 {
     sp_arrival *taken = malloc((kept->reach->count + 1) * sizeof *taken);
     if (!taken)
@@ -63,26 +63,27 @@ static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emi
             taken[count++] = *arrival;
     }
     kept->used = live->evaluations;
-    sp_lay_arrivals(emitter, flow, taken, count, tally);
+    sp_lay_arrivals(emitter, flow, taken, count, combination);
     free(taken);
     return true;
 }
 
 /* What the spray alone reaches. */
-static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_combination *tally)
+static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride,
+                       sp_combination *combination)
 {
     sp_aim aim = aim_of(emitter);
     aim.among = stride > 1 ? live->sample.among : NULL;
     sp_reach *reach = sp_reach_create(&emitter->source, &aim, &live->error);
     if (!reach)
         return false;
-    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, tally);
+    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, combination);
     sp_reach_destroy(reach);
     return true;
 }
 
 static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *bodies, unsigned stride,
-                         sp_combination *tally)
+                         sp_combination *combination)
 {
     const sp_layout *patterns = bodies->patterns;
     bool done = true, traced = false;
@@ -93,10 +94,10 @@ static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *b
         if (!(flow > 0))
             continue;
         traced = traced || !known;
-        done = known ? lay_known(live, kept, &emitter, flow, stride, tally)
-                     : lay_traced(live, &emitter, flow, stride, tally);
+        done = known ? lay_known(live, kept, &emitter, flow, stride, combination)
+                     : lay_traced(live, &emitter, flow, stride, combination);
     }
-    sp_combination_end_nozzle(tally);
+    sp_combination_end_nozzle(combination);
     live->figures[SP_LIVE_TRACED] += traced;
     return done;
 }
@@ -147,15 +148,16 @@ bool sp_live_lay(sp_live *live, sp_live_nozzle *kept, const sp_nozzle *nozzle, u
         return true;
     sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
     sp_bodies bodies;
-    sp_combination tally = {0};
+    sp_combination combination = {0};
     sp_coverage_destroy(kept->alone);
     kept->laid = false;
     kept->alone = sp_bodies_create(live->evaluator, &one, &bodies, &live->error)
                       ? sp_coverage_create(live->evaluator, &live->error)
                       : NULL;
-    bool done = kept->alone && sp_combination_create(live->evaluator, &kept->alone->deposits, &tally, &live->error) &&
-                lay_patterns(live, kept, &bodies, stride, &tally);
-    sp_combination_free(&tally);
+    bool done = kept->alone &&
+                sp_combination_create(live->evaluator, &kept->alone->deposits, &combination, &live->error) &&
+                lay_patterns(live, kept, &bodies, stride, &combination);
+    sp_combination_free(&combination);
     sp_bodies_free(&bodies);
     kept->laid = done;
     kept->stride = stride;

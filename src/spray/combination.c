@@ -3,51 +3,52 @@
 #include <assert.h>
 #include <stdlib.h>
 
-static bool is_single(const sp_combination *tally)
+static bool is_single(const sp_combination *combination)
 {
-    return tally->evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
+    return combination->evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
 }
 
-bool sp_combination_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_combination *tally, sp_error *error)
+bool sp_combination_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_combination *combination,
+                           sp_error *error)
 {
-    *tally = (sp_combination){evaluator, deposits, false, deposits->counted, deposits->even};
-    if (!is_single(tally))
+    *combination = (sp_combination){evaluator, deposits, false, deposits->counted, deposits->even};
+    if (!is_single(combination))
         return true;
-    tally->counted = calloc(deposits->count + 1, sizeof *tally->counted);
-    tally->even = calloc(deposits->count + 1, sizeof *tally->even);
-    return (tally->counted && tally->even) || sp_fail_memory(error);
+    combination->counted = calloc(deposits->count + 1, sizeof *combination->counted);
+    combination->even = calloc(deposits->count + 1, sizeof *combination->even);
+    return (combination->counted && combination->even) || sp_fail_memory(error);
 }
 
-void sp_combination_free(sp_combination *tally)
+void sp_combination_free(sp_combination *combination)
 {
-    if (tally->evaluator && is_single(tally)) {
-        free(tally->counted);
-        free(tally->even);
+    if (combination->evaluator && is_single(combination)) {
+        free(combination->counted);
+        free(combination->even);
     }
-    *tally = (sp_combination){0};
+    *combination = (sp_combination){0};
 }
 
-void sp_combination_add(sp_combination *tally, uint32_t patch, double counted, const sp_wetting *wetting)
+void sp_combination_add(sp_combination *combination, uint32_t patch, double counted, const sp_wetting *wetting)
 {
-    sp_wetting settled = sp_wetting_settle(*wetting, tally->evaluator->setup.criterion.flux);
+    sp_wetting settled = sp_wetting_settle(*wetting, combination->evaluator->setup.criterion.flux);
     assert(counted >= 0 && settled.even >= 0 && settled.dry >= 0 && settled.dry <= 1);
-    tally->counted[patch] += counted;
-    tally->even[patch] += settled.even;
-    if (!tally->repeats)
-        tally->deposits->dry[patch] *= settled.dry;
+    combination->counted[patch] += counted;
+    combination->even[patch] += settled.even;
+    if (!combination->repeats)
+        combination->deposits->dry[patch] *= settled.dry;
 }
 
-void sp_combination_begin_nozzle(sp_combination *tally, const sp_layout *layout, size_t i)
+void sp_combination_begin_nozzle(sp_combination *combination, const sp_layout *layout, size_t i)
 {
-    tally->repeats = sp_layout_repeats(layout, i, &tally->evaluator->setup.liquid);
+    combination->repeats = sp_layout_repeats(layout, i, &combination->evaluator->setup.liquid);
 }
 
-void sp_combination_end_nozzle(sp_combination *tally)
+void sp_combination_end_nozzle(sp_combination *combination)
 {
-    sp_deposits *deposits = tally->deposits;
-    for (size_t i = 0; is_single(tally) && i < deposits->count; i++) {
-        deposits->counted[i] = fmax(deposits->counted[i], tally->counted[i]);
-        deposits->even[i] = fmax(deposits->even[i], tally->even[i]);
-        tally->counted[i] = tally->even[i] = 0;
+    sp_deposits *deposits = combination->deposits;
+    for (size_t i = 0; is_single(combination) && i < deposits->count; i++) {
+        deposits->counted[i] = fmax(deposits->counted[i], combination->counted[i]);
+        deposits->even[i] = fmax(deposits->even[i], combination->even[i]);
+        combination->counted[i] = combination->even[i] = 0;
     }
 }

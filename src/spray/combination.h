@@ -13,14 +13,14 @@ typedef struct {
 } sp_combination;
 
 /* For sp_combination_free whatever the outcome. */
-bool sp_combination_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_combination *tally,
+bool sp_combination_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_combination *combination,
                            sp_error *error);
-void sp_combination_free(sp_combination *tally);
+void sp_combination_free(sp_combination *combination);
 /* Adds to what the criterion counts what one pattern brings to a patch: flux, m³/s per m², and where it falls. */
-void sp_combination_add(sp_combination *tally, uint32_t patch, double counted, const sp_wetting *wetting);
+void sp_combination_add(sp_combination *combination, uint32_t patch, double counted, const sp_wetting *wetting);
 /* Takes nozzle i of a layout in hand. */
-void sp_combination_begin_nozzle(sp_combination *tally, const sp_layout *layout, size_t i);
+void sp_combination_begin_nozzle(sp_combination *combination, const sp_layout *layout, size_t i);
 /* All patterns of the nozzle in hand are added. */
-void sp_combination_end_nozzle(sp_combination *tally);
+void sp_combination_end_nozzle(sp_combination *combination);
 
 #endif

@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
-    sp_combination tally;
+    sp_combination combination;
     double *counted;     /* [patches], m³/s per m² of the pattern in hand */
     sp_lit lit;          /* by the pattern in hand */
     sp_balance *balance; /* of all */
@@ -236,7 +236,7 @@ static void count_pattern(jet_flight *flight)
                share = flux > 0 && !spread ? sp_lit_share(evaluator, &flight->lit, (uint32_t)i) : 1;
         sp_wetting wetting = {0, 1, 0};
         sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, 1, share, share >= 0.5);
-        sp_combination_add(&flight->tally, (uint32_t)i, flux, &wetting);
+        sp_combination_add(&flight->combination, (uint32_t)i, flux, &wetting);
         flight->counted[i] = 0;
     }
     sp_lit_clear(evaluator, &flight->lit);
@@ -249,13 +249,13 @@ static bool fly_bodies(jet_flight *flight, const sp_bodies *bodies, sp_error *er
     for (size_t n = 0; n < patterns->count; n++)
         all += (double)pattern_jets(flight, &patterns->nozzles[n]);
     for (size_t b = 0; b < bodies->layout->count; b++) {
-        sp_combination_begin_nozzle(&flight->tally, bodies->layout, b);
+        sp_combination_begin_nozzle(&flight->combination, bodies->layout, b);
         for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
             if (!fly_pattern(flight, &patterns->nozzles[n], &done, all, error))
                 return false;
             count_pattern(flight);
         }
-        sp_combination_end_nozzle(&flight->tally);
+        sp_combination_end_nozzle(&flight->combination);
     }
     return true;
 }
@@ -273,7 +273,7 @@ static double lowest_point(const sp_evaluator *evaluator)
 
 static void flight_free(jet_flight *flight)
 {
-    sp_combination_free(&flight->tally);
+    sp_combination_free(&flight->combination);
     sp_lit_free(&flight->lit);
     free(flight->counted);
     free(flight->rays);
@@ -306,7 +306,7 @@ static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodi
     bool room = (flight.landings || !drag) && flight.rays && flight.offset && flight.flow && flight.hits &&
                 flight.impacts && flight.counted;
     bool done = (room || sp_fail_memory(error)) &&
-                sp_combination_create(evaluator, &coverage->deposits, &flight.tally, error) &&
+                sp_combination_create(evaluator, &coverage->deposits, &flight.combination, error) &&
                 sp_lit_create(evaluator, &flight.lit, error) && fly_bodies(&flight, bodies, error) &&
                 sp_coverage_conclude(evaluator, bodies, coverage, error);
     flight_free(&flight);

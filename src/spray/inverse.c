@@ -9,7 +9,7 @@
 
 /* All arrivals of one pattern at one patch, `first` to `end`. */
 static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *first, const sp_arrival *end,
-                      sp_combination *tally)
+                      sp_combination *combination)
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
     sp_wetting wetting = {0, 1, 0};
@@ -21,7 +21,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         assert(mean >= 0 && share <= 1);
         left -= mean;
         if (share > 0)
-            sp_deposit(tally->deposits, first->patch, mean, arrival->part, arrival->speed,
+            sp_deposit(combination->deposits, first->patch, mean, arrival->part, arrival->speed,
                        sp_arrival_incidence(arrival), setup->liquid.density);
         if (!arrival->passes)
             continue;
@@ -33,21 +33,21 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
             sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
                            !alone && sp_emitter_holds(emitter, arrival->direction));
     }
-    sp_combination_add(tally, first->patch, counted, &wetting);
+    sp_combination_add(combination, first->patch, counted, &wetting);
 }
 
 void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count,
-                     sp_combination *tally)
+                     sp_combination *combination)
 {
     for (size_t i = 0, end; i < count; i = end) {
         for (end = i + 1; end < count && arrivals[end].patch == arrivals[i].patch;)
             end++;
-        lay_patch(emitter, flow, &arrivals[i], &arrivals[end], tally);
+        lay_patch(emitter, flow, &arrivals[i], &arrivals[end], combination);
     }
 }
 
-static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch, sp_combination *tally, sp_work *work,
-                        sp_error *error)
+static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch, sp_combination *combination,
+                        sp_work *work, sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
@@ -55,27 +55,27 @@ static bool lay_pattern(const sp_emitter *emitter, double flow, sp_watch *watch,
     sp_reach *reach = sp_reach_create(&emitter->source, &aim, error);
     if (!reach)
         return false;
-    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, tally);
+    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, combination);
     work->places += reach->work.places;
     work->rays += reach->work.rays;
     sp_reach_destroy(reach);
     return true;
 }
 
-static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_combination *tally, sp_work *work,
-                       sp_error *error)
+static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_combination *combination,
+                       sp_work *work, sp_error *error)
 {
     sp_watch watch = sp_watch_start(evaluator, "patches", bodies->patterns->count * evaluator->patches.count);
     for (size_t b = 0; b < bodies->layout->count; b++) {
-        sp_combination_begin_nozzle(tally, bodies->layout, b);
+        sp_combination_begin_nozzle(combination, bodies->layout, b);
         for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
             sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);
             double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
-            if (flow > 0 && !lay_pattern(&emitter, flow, &watch, tally, work, error))
+            if (flow > 0 && !lay_pattern(&emitter, flow, &watch, combination, work, error))
                 return false;
         }
-        sp_combination_end_nozzle(tally);
+        sp_combination_end_nozzle(combination);
     }
     return sp_watch_end(&watch, error);
 }
@@ -85,15 +85,15 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
     if (!evaluator || !layout)
         return NULL;
     sp_bodies bodies;
-    sp_combination tally = {0};
+    sp_combination combination = {0};
     sp_coverage *coverage =
         sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error)
             ? sp_coverage_create(evaluator, error)
             : NULL;
-    bool done = coverage && sp_combination_create(evaluator, &coverage->deposits, &tally, error) &&
-                lay_bodies(evaluator, &bodies, &tally, &coverage->work, error) &&
+    bool done = coverage && sp_combination_create(evaluator, &coverage->deposits, &combination, error) &&
+                lay_bodies(evaluator, &bodies, &combination, &coverage->work, error) &&
                 sp_coverage_conclude(evaluator, &bodies, coverage, error);
-    sp_combination_free(&tally);
+    sp_combination_free(&combination);
     sp_bodies_free(&bodies);
     if (done)
         return coverage;

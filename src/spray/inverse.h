@@ -6,8 +6,8 @@
 #include "combination.h"
 
 /* Adds what a pattern of this flow (m³/s) brings by arrivals that its aim takes, as sp_reach_create orders them, to
- * the tally of the nozzle in hand. */
+ * the combination of the nozzle in hand. */
 void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count,
-                     sp_combination *tally);
+                     sp_combination *combination);
 
 #endif

@@ -77,128 +77,119 @@ static double area_of(const job *j, const sp_partial *partial)
     return room_area_of(&j->room, sp_partial_to_layout(&j->ready.search, partial, &error));
 }
 
-static void draft_all(job *j)
+/* Every case begins with drafts of all layouts. */
+static int set_up(void **state)
 {
     sp_error error = {0};
+    job *j = malloc(sizeof *j);
+    assert_non_null(j);
+    job_open(j);
     assert_true(sp_front_measure_all(&j->front, &j->ready.search, j->layouts, LAYOUTS, &error));
+    *state = j;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    job_close(*state);
+    free(*state);
+    return 0;
 }
 
 static void many_jets_want_drafts(void **state)
 {
-    (void)state;
-    job j;
-    job_open(&j);
-    assert_in_range(j.front.draft_jets, JETS / 10, JETS / 2);
-    job_close(&j);
+    job *j = *state;
+    assert_in_range(j->front.draft_jets, JETS / 10, JETS / 2);
 }
 
 /* No figure of a draft is left, and the best is the best by what the scene says. */
 static void drafts_are_counted(void **state)
 {
-    (void)state;
-    job j;
+    job *j = *state;
     sp_error error = {0};
-    job_open(&j);
-    draft_all(&j);
-    double asked = 0.5 * sp_evaluator_patches(j.room.evaluator)->total_area, least = INFINITY;
+    double asked = 0.5 * sp_evaluator_patches(j->room.evaluator)->total_area, least = INFINITY;
     bool differs = false;
-    for (size_t i = 0; i < j.front.by_water.count; i++)
-        differs |= j.front.by_water.entries[i].point.area != area_of(&j, &j.front.by_water.entries[i].partial);
+    for (size_t i = 0; i < j->front.by_water.count; i++)
+        differs |= j->front.by_water.entries[i].point.area != area_of(j, &j->front.by_water.entries[i].partial);
     assert_true(differs);
-    assert_true(sp_count_by_all_jets(&j.front, &j.ready.search, asked, &error));
-    assert_int_equal(j.front.draft_jets, 0);
-    assert_true(j.front.by_water.count > 2);
-    for (size_t i = 0; i < j.front.by_water.count; i++) {
-        const sp_front_entry *entry = &j.front.by_water.entries[i];
-        assert_true(entry->point.area == area_of(&j, &entry->partial));
+    assert_true(sp_count_by_all_jets(&j->front, &j->ready.search, asked, &error));
+    assert_int_equal(j->front.draft_jets, 0);
+    assert_true(j->front.by_water.count > 2);
+    for (size_t i = 0; i < j->front.by_water.count; i++) {
+        const sp_front_entry *entry = &j->front.by_water.entries[i];
+        assert_true(entry->point.area == area_of(j, &entry->partial));
         if (entry->point.area >= asked)
             least = fmin(least, entry->point.outlay);
     }
-    assert_true(isfinite(least) && j.front.measured.outlay == least);
-    assert_true(j.front.measured.area == area_of(&j, &j.front.best));
-    job_close(&j);
+    assert_true(isfinite(least) && j->front.measured.outlay == least);
+    assert_true(j->front.measured.area == area_of(j, &j->front.best));
 }
 
 /* Without time the best is counted, and no draft is told as if it were. */
 static void without_time_the_best_is_counted(void **state)
 {
-    (void)state;
-    job j;
+    job *j = *state;
     sp_error error = {0};
-    job_open(&j);
-    draft_all(&j);
-    size_t nozzles = j.front.best.count;
-    j.ready.deadline.run.time_limit = 1e-9;
-    assert_true(sp_count_by_all_jets(&j.front, &j.ready.search, 0, &error));
-    assert_int_equal(j.front.by_water.count, 1);
-    assert_int_equal(j.front.best.count, nozzles);
-    assert_true(j.front.measured.area == area_of(&j, &j.front.best));
-    assert_true(j.ready.deadline.interrupted == false && j.ready.deadline.cut_count == 1);
-    job_close(&j);
+    size_t nozzles = j->front.best.count;
+    j->ready.deadline.run.time_limit = 1e-9;
+    assert_true(sp_count_by_all_jets(&j->front, &j->ready.search, 0, &error));
+    assert_int_equal(j->front.by_water.count, 1);
+    assert_int_equal(j->front.best.count, nozzles);
+    assert_true(j->front.measured.area == area_of(j, &j->front.best));
+    assert_true(j->ready.deadline.interrupted == false && j->ready.deadline.cut_count == 1);
 }
 
 /* Drafts that flatter have to cover more; what then is best is known already. */
 static void the_aim_rises_by_what_drafts_flatter(void **state)
 {
-    (void)state;
-    job j;
+    job *j = *state;
     sp_error error = {0};
-    job_open(&j);
-    draft_all(&j);
-    const sp_front_list *list = &j.front.by_water;
+    const sp_front_list *list = &j->front.by_water;
     double most = list->entries[list->count - 1].point.area;
-    assert_true(list->count > 2 && j.front.measured.area < most);
+    assert_true(list->count > 2 && j->front.measured.area < most);
     double flattery = 1e-3 * most, target = most - 1.5 * flattery;
-    assert_true(sp_aim_by_few_jets(&j.front, &j.ready.search, target, j.front.measured.area - flattery, &error));
-    assert_true(fabs(j.front.target - (target + flattery)) < 1e-12);
-    assert_true(j.front.measured.area >= j.front.target);
-    assert_true(j.front.measured.area == most);
-    job_close(&j);
+    assert_true(sp_aim_by_few_jets(&j->front, &j->ready.search, target, j->front.measured.area - flattery, &error));
+    assert_true(fabs(j->front.target - (target + flattery)) < 1e-12);
+    assert_true(j->front.measured.area >= j->front.target);
+    assert_true(j->front.measured.area == most);
 }
 
 /* However short the time is. */
 static void what_was_counted_stays(void **state)
 {
-    (void)state;
-    job j;
+    job *j = *state;
     sp_error error = {0};
-    job_open(&j);
-    draft_all(&j);
-    const sp_front_list *list = &j.front.by_water;
-    double most = list->entries[list->count - 1].point.area, told = j.front.measured.area - 1e-3;
-    sp_front_point first = j.front.measured;
-    assert_true(sp_aim_by_few_jets(&j.front, &j.ready.search, most - 1e-3, told, &error));
-    assert_true(j.front.measured.outlay > first.outlay);
-    j.ready.deadline.run.time_limit = 1e-9;
-    assert_true(sp_count_by_all_jets(&j.front, &j.ready.search, told, &error));
-    assert_int_equal(j.front.by_water.count, 2);
-    assert_true(j.front.measured.area == told && j.front.measured.outlay == first.outlay);
-    job_close(&j);
+    const sp_front_list *list = &j->front.by_water;
+    double most = list->entries[list->count - 1].point.area, told = j->front.measured.area - 1e-3;
+    sp_front_point first = j->front.measured;
+    assert_true(sp_aim_by_few_jets(&j->front, &j->ready.search, most - 1e-3, told, &error));
+    assert_true(j->front.measured.outlay > first.outlay);
+    j->ready.deadline.run.time_limit = 1e-9;
+    assert_true(sp_count_by_all_jets(&j->front, &j->ready.search, told, &error));
+    assert_int_equal(j->front.by_water.count, 2);
+    assert_true(j->front.measured.area == told && j->front.measured.outlay == first.outlay);
 }
 
 static void what_was_counted_is_not_counted_again(void **state)
 {
-    (void)state;
-    job j;
+    job *j = *state;
     sp_error error = {0};
-    job_open(&j);
-    draft_all(&j);
-    double told = j.front.measured.area - 1e-3;
-    assert_true(sp_aim_by_few_jets(&j.front, &j.ready.search, 0, told, &error));
-    j.ready.deadline.run.time_limit = 1e-9;
-    assert_true(sp_count_by_all_jets(&j.front, &j.ready.search, 0, &error));
-    assert_int_equal(j.front.by_water.count, 1);
-    assert_true(j.front.measured.area == told);
-    job_close(&j);
+    double told = j->front.measured.area - 1e-3;
+    assert_true(sp_aim_by_few_jets(&j->front, &j->ready.search, 0, told, &error));
+    j->ready.deadline.run.time_limit = 1e-9;
+    assert_true(sp_count_by_all_jets(&j->front, &j->ready.search, 0, &error));
+    assert_int_equal(j->front.by_water.count, 1);
+    assert_true(j->front.measured.area == told);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(many_jets_want_drafts),
-                                       cmocka_unit_test(drafts_are_counted),
-                                       cmocka_unit_test(without_time_the_best_is_counted),
-                                       cmocka_unit_test(the_aim_rises_by_what_drafts_flatter),
-                                       cmocka_unit_test(what_was_counted_stays),
-                                       cmocka_unit_test(what_was_counted_is_not_counted_again)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(many_jets_want_drafts, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(drafts_are_counted, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(without_time_the_best_is_counted, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_aim_rises_by_what_drafts_flatter, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_was_counted_stays, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_was_counted_is_not_counted_again, set_up, tear_down)};
     return cmocka_run_group_tests_name("few_jets", tests, NULL, NULL);
 }
