@@ -175,8 +175,8 @@ bool cli_admits(const cli_scene *opened, const sp_nozzle *nozzle, sp_error *erro
 /* idle_mounts.c: tells of each mount of the scene's on which no nozzle can stand. False where memory runs out. */
 typedef void cli_teller(void *user, const char *text);
 bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user, sp_error *error);
-/* ports.c: tells of nozzles of the scene's own that stand in a port against its types, tilt or depths, or where another
- * does, and of ports that are there twice. */
+/* ports.c: tells of nozzles of the scene's own that stand in a port against its types, tilt, depths or steps, or where
+ * another does, and of ports that are there twice. */
 void cli_tell_port_breaches(const cli_scene *opened, cli_teller *tell, void *user);
 /* long_texel.c: whether the texel that is set is too long for patches to follow the surface; that, and what may be
  * meant, as a sentence. */

@@ -7,6 +7,8 @@
 
 #define LEAN_SLACK 0.01 /* rad, by which an axis may be written too slanted */
 #define SAME_AXIS 1e-6  /* by which the cosine of two axes may lack 1 for them to be one */
+#define OFF_A_STEP 0.1  /* of a step, by which a setting may be written wrong, and no more than LEAN_SLACK */
+#define OFF_DEPTH 1e-3  /* m; or than that of a depth */
 
 typedef struct {
     const sp_setup *setup;
@@ -53,12 +55,46 @@ static void tell_of_type(const inspection *own, const sp_mount *port, const sp_n
         nozzle->type->name, names);
 }
 
+static double tilt_in(const sp_mount *port, const sp_nozzle *nozzle)
+{
+    return atan2(sp_length(sp_cross(port->axis, nozzle->axis)), sp_dot(port->axis, nozzle->axis));
+}
+
 static void tell_of_tilt(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
 {
-    double tilt = acos(fmin(1, fmax(-1, sp_dot(port->axis, nozzle->axis))));
+    double tilt = tilt_in(port, nozzle);
     if (tilt > port->tilt + LEAN_SLACK)
         say(own, "nozzle \"%s\": in port %s, tilted by %.1f deg from its axis, expected no more than %.1f deg",
             nozzle->name, port->name, tilt * 180 / M_PI, port->tilt * 180 / M_PI);
+}
+
+/* What of a lance is set, in SI, and how it is told: in a unit of which `per` make one of SI. */
+typedef struct {
+    sp_step step;
+    double from, value, low, high, slack;
+    const char *told, *unit;
+    double per;
+} setting;
+
+/* A setting between those that the step leaves. */
+static void tell_of_step(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle, setting s)
+{
+    double size = sp_step_size(s.step), nearest = sp_step_nearest(s.step, s.from, s.value, s.low, s.high);
+    if (size > 0 && fabs(s.value - nearest) > fmin(s.slack, OFF_A_STEP * size))
+        say(own, "nozzle \"%s\": in port %s, %s %.5g %s, expected a step of %.5g %s: it can be mounted at %.5g %s",
+            nozzle->name, port->name, s.told, s.per * s.value, s.unit, s.per * size, s.unit, s.per * nearest, s.unit);
+}
+
+/* Of a tilt beyond the port's that is told alone. */
+static void tell_of_steps(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
+{
+    double depth = sp_dot(sp_sub(nozzle->position, port->position), port->axis), tilt = tilt_in(port, nozzle);
+    tell_of_step(own, port, nozzle,
+                 (setting){port->depth_step, port->depth_from, depth, port->depth_from, port->depth_to, OFF_DEPTH,
+                           "at a depth of", "mm", 1e3});
+    if (tilt <= port->tilt + LEAN_SLACK)
+        tell_of_step(own, port, nozzle,
+                     (setting){port->tilt_step, 0, tilt, 0, port->tilt, LEAN_SLACK, "tilted by", "deg", 180 / M_PI});
 }
 
 static void tell_of_company(const inspection *own, const sp_mount *port, size_t index)
@@ -108,6 +144,7 @@ static void tell_of_nozzle(const inspection *own, size_t index)
     if (port) {
         tell_of_type(own, port, nozzle);
         tell_of_tilt(own, port, nozzle);
+        tell_of_steps(own, port, nozzle);
         tell_of_company(own, port, index);
     } else if (sp_mount_at(own->setup, own->place.mounts, own->place.mount_count, nozzle->position) == SIZE_MAX) {
         tell_of_depth(own, nozzle);

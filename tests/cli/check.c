@@ -155,6 +155,42 @@ static void check_tells_of_nozzles_against_their_ports(void **state)
     json_decref(object);
 }
 
+/* Between the settings of a port; not where a setting is written with few digits, nor where there are no steps. */
+static void check_tells_of_nozzles_between_settings_of_their_ports(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "nozzle \"between\": in port P1, at a depth of 237 mm, expected a step of 50 mm: it can be mounted at 250 mm",
+        "nozzle \"between\": in port P1, tilted by 21.801 deg, expected a step of 15 deg: it can be mounted at 15 deg",
+    };
+    const size_t count = sizeof expected / sizeof *expected;
+    write_file(
+        "stepped.yaml",
+        "geometry:\n"
+        "  - file: room.obj\n"
+        "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+        "catalogue: catalogue.yaml\n"
+        "nozzles:\n"
+        "  - {name: between, type: cone, position: [0.3 m, 0.3 m, 0.763 m], axis: [0, 0.4, -1], pressure: 2 bar}\n"
+        "  - {name: set, type: cone, position: [0.7 m, 0.3 m, 0.7501 m], axis: [0, 0.26, -0.97], "
+        "pressure: 2 bar}\n"
+        "  - {name: free, type: cone, position: [0.7 m, 0.7 m, 0.763 m], axis: [0, 0.4, -1], pressure: 2 bar}\n"
+        "place:\n"
+        "  pressure: 2 bar\n"
+        "  mounts:\n"
+        "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], tilt: 30 deg, step: {depth: 50 mm, tilt: 15 deg}, "
+        "depth: {from: 100 mm, to: 500 mm, spacing: 200 mm}}\n"
+        "    - port: {name: P2, position: [0.7 m, 0.3 m, 1 m], tilt: 30 deg, step: {depth: 50 mm, tilt: 15 deg}, "
+        "depth: {from: 100 mm, to: 500 mm, spacing: 200 mm}}\n"
+        "    - port: {name: P3, position: [0.7 m, 0.7 m, 1 m], tilt: 30 deg, depth: {from: 100 mm, to: "
+        "500 mm, spacing: 200 mm}}\n");
+    json_t *object = expect_json("check stepped.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), count);
+    for (size_t i = 0; i < count; i++)
+        assert_string_equal(json_string_value(json_array_get(warnings, i)), expected[i]);
+    json_decref(object);
+}
+
 /* In one place, nearer than their bodies allow, and as near as these allow. */
 static void bodies_that_overlap_are_told(void **state)
 {
@@ -270,6 +306,7 @@ int main(void)
         cmocka_unit_test(tangled_polygons_are_warned_of),
         cmocka_unit_test(check_measures_the_room),
         cmocka_unit_test(check_tells_of_nozzles_against_their_ports),
+        cmocka_unit_test(check_tells_of_nozzles_between_settings_of_their_ports),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),
