@@ -191,6 +191,34 @@ static void check_tells_of_nozzles_between_settings_of_their_ports(void **state)
     json_decref(object);
 }
 
+/* Of `place` and of an alternative's own; not where the kept nozzles are within, whatever others take. */
+static void check_tells_of_limits_below_what_is_kept(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "place: max_water of 20 L/min is less than the 24 L/min that the 2 nozzles to keep take",
+        "alternative \"one\": max_nozzles of 1 is less than the 2 nozzles to keep",
+    };
+    const size_t count = sizeof expected / sizeof *expected;
+    write_file(
+        "kept.yaml",
+        "geometry:\n  - file: room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncatalogue: catalogue.yaml\nnozzles:\n"
+        "  - {name: a, type: cone, position: [0.3 m, 0.3 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar, keep: true}\n"
+        "  - {name: b, type: cone, position: [0.7 m, 0.3 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar, keep: true}\n"
+        "  - {name: c, type: cone, position: [0.7 m, 0.7 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+        "place:\n  pressure: 2 bar\n  max_water: 20 L/min\n  mounts:\n"
+        "    - port: {name: P, position: [0.5 m, 0.5 m, 0.9 m]}\n"
+        "  alternatives:\n"
+        "    - {name: as it is}\n"
+        "    - {name: enough, max_water: 24 L/min}\n"
+        "    - {name: one, max_nozzles: 1}\n");
+    json_t *object = expect_json("check kept.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+    assert_int_equal(json_array_size(warnings), count);
+    for (size_t i = 0; i < count; i++)
+        assert_string_equal(json_string_value(json_array_get(warnings, i)), expected[i]);
+    json_decref(object);
+}
+
 /* In one place, nearer than their bodies allow, and as near as these allow. */
 static void bodies_that_overlap_are_told(void **state)
 {
@@ -307,6 +335,7 @@ int main(void)
         cmocka_unit_test(check_measures_the_room),
         cmocka_unit_test(check_tells_of_nozzles_against_their_ports),
         cmocka_unit_test(check_tells_of_nozzles_between_settings_of_their_ports),
+        cmocka_unit_test(check_tells_of_limits_below_what_is_kept),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),

@@ -208,6 +208,7 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     if (!warn_of_nozzles(found, error))
         return false;
     cli_tell_port_breaches(found->opened, warn_of_mount, found);
+    cli_tell_kept_beyond_limits(found->opened, warn_of_mount, found);
     return !sp_scene_has_place(found->opened->scene) ||
            cli_tell_idle_mounts(found->opened, warn_of_mount, found, error);
 }
