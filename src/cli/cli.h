@@ -182,6 +182,9 @@ void cli_tell_port_breaches(const cli_scene *opened, cli_teller *tell, void *use
  * meant, as a sentence. */
 enum { CLI_LONG_TEXEL = 240 };
 bool cli_tell_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL]);
+/* large_threshold.c: whether the criterion asks for more liquid than nozzles bring; that, as a sentence. */
+enum { CLI_LARGE_THRESHOLD = 240 };
+bool cli_tell_large_threshold(const sp_setup *setup, char text[CLI_LARGE_THRESHOLD]);
 /* kept_limits.c: tells of limits of `place` and of its alternatives that the nozzles to be kept go beyond. */
 void cli_tell_kept_beyond_limits(const cli_scene *opened, cli_teller *tell, void *user);
 /* A layout with its coverage, and the scene's mounts. */

@@ -145,7 +145,7 @@ static void print_choice(const sp_result *result, const sp_figures *figures)
         if (!evaluator)
             continue;
         bool first = is_first_on(result, i);
-        char long_texel[CLI_LONG_TEXEL];
+        char long_texel[CLI_LONG_TEXEL], threshold[CLI_LARGE_THRESHOLD];
         const sp_choice *choice = sp_evaluator_choice(evaluator);
         double accuracy = sp_evaluator_fidelity(evaluator)->accuracy, error = figures[i].error_estimate;
         const char *why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
@@ -154,6 +154,8 @@ static void print_choice(const sp_result *result, const sp_figures *figures)
                 print_setting(k, evaluator, why[k]);
         if (first && cli_tell_long_texel(sp_evaluator_setup(evaluator), long_texel))
             printf("warning: %s\n", long_texel);
+        if (first && cli_tell_large_threshold(sp_evaluator_setup(evaluator), threshold))
+            printf("warning: %s\n", threshold);
         if (error > accuracy || (!isfinite(error) && first && choice->missed))
             print_missed(&result->designs[i]);
     }

@@ -219,6 +219,38 @@ static void check_tells_of_limits_below_what_is_kept(void **state)
     json_decref(object);
 }
 
+/* 1 m/s is a flux, of m3/s per m2, and 1 m a dose: they are read, and doubted. */
+static void check_doubts_thresholds_of_another_unit(void **state)
+{
+    (void)state;
+    static const char goods[] = "\n    sweep: {from: [0 m, 0 m, 0 m], to: [1 m, 0 m, 0 m], speed: 1 m/s}";
+    static const struct {
+        const char *criterion;
+        const char *sweep, *expected;
+    } thresholds[] = {
+        {"flux: 1 m/s", "",
+         "criterion: flux is 60000 L/min/m2, more than nozzles bring to a wall; is another unit meant?"},
+        {"flux: 1 mm/s", "", NULL},
+        {"film: 1 m2/s", "",
+         "criterion: film is 60000 L/min/m, more than nozzles bring to a wall; is another unit meant?"},
+        {"dose: 1 m", goods, "criterion: dose is 1000 L/m2, more than nozzles bring to a wall; is another unit meant?"},
+        {"dose: 2 L/m2", goods, NULL},
+    };
+    for (size_t i = 0; i < sizeof thresholds / sizeof *thresholds; i++) {
+        char scene[512];
+        snprintf(scene, sizeof scene, "geometry:\n  - file: room.obj%s\ncavity: %s\ncriterion: {%s}\n",
+                 thresholds[i].sweep, "[0.5 m, 0.5 m, 0.5 m]", thresholds[i].criterion);
+        write_file("threshold.yaml", scene);
+        json_t *object = expect_json("check threshold.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+        const char *told = json_string_value(json_array_get(warnings, 0));
+        if (thresholds[i].expected)
+            assert_string_equal(told, thresholds[i].expected);
+        else
+            assert_null(told);
+        json_decref(object);
+    }
+}
+
 /* In one place, nearer than their bodies allow, and as near as these allow. */
 static void bodies_that_overlap_are_told(void **state)
 {
@@ -336,6 +368,7 @@ int main(void)
         cmocka_unit_test(check_tells_of_nozzles_against_their_ports),
         cmocka_unit_test(check_tells_of_nozzles_between_settings_of_their_ports),
         cmocka_unit_test(check_tells_of_limits_below_what_is_kept),
+        cmocka_unit_test(check_doubts_thresholds_of_another_unit),
         cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),

@@ -66,6 +66,13 @@ static void warn_of_texel(cli_findings *found)
         warn(found, "%s", text);
 }
 
+static void warn_of_criterion(cli_findings *found)
+{
+    char text[CLI_LARGE_THRESHOLD];
+    if (cli_tell_large_threshold(sp_scene_setup(found->opened->scene), text))
+        warn(found, "%s", text);
+}
+
 /* What a CAD file says that cannot be, and bodies that their triangles do not give. */
 static void warn_of_cad(cli_findings *found)
 {
@@ -199,6 +206,7 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     warn_of_mesh(found);
     warn_of_size(found);
     warn_of_texel(found);
+    warn_of_criterion(found);
     warn_of_cad(found);
     warn_of_cavity(found);
     warn_of_sides(found);
