@@ -273,9 +273,11 @@ static void print_certificate(const sp_proposal *proposal)
         return;
     }
     bool one = certificate->candidates == 1;
-    printf("\nAmong %s %zu candidate pose%s and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
-           "than ",
-           one ? "this" : "these", certificate->candidates, one ? "" : "s", certificate->texels,
+    printf("\nAmong %s %zu candidate pose%s ", one ? "this" : "these", certificate->candidates, one ? "" : "s");
+    if (certificate->candidates < proposal->candidates)
+        printf("(of %zu; the others are in ports that kept nozzles hold, or were not traced in time) ",
+               proposal->candidates);
+    printf("and the proposal's own, on %zu texels, no layout reaches %.1f %% with less than ", certificate->texels,
            ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10);
     print_least_water(proposal, certificate->water_bound);
     printf(".\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses between candidates are not covered.\n",

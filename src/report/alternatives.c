@@ -105,6 +105,26 @@ static void add_reached(const sp_page *page, sp_text *text, size_t design)
     sp_page_cut(text, proposal);
 }
 
+static void add_limits(const sp_page *page, sp_text *text, size_t design)
+{
+    char limits[SP_LIMITS_TEXT];
+    sp_limits_clause(page->result->designs[design].alternative, limits);
+    sp_text_add(text, "%s", limits[0] ? limits : "any number and water");
+}
+
+/* Whether any alternative has limits of its own on number or water. */
+static bool has_limits(const sp_page *page)
+{
+    bool any = false;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        char limits[SP_LIMITS_TEXT] = "";
+        if (is_alternative(page, i))
+            sp_limits_clause(page->result->designs[i].alternative, limits);
+        any |= limits[0] != 0;
+    }
+    return any;
+}
+
 static void add_attainable(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
@@ -221,6 +241,8 @@ static void add_table(const sp_page *page, sp_text *text)
         add_row(page, text, reached.text, add_reached);
     text->failed |= reached.failed;
     free(reached.text);
+    if (has_limits(page))
+        add_row(page, text, "Allowed at most", add_limits);
     add_row(page, text, "Attainable at all", add_attainable);
     add_row(page, text, "Water", add_water);
     if (page->costly)

@@ -46,10 +46,11 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool thrown_ba
     if (thrown_back)
         sp_text_add(text, "<p>What follows is by first impacts alone: what walls throw back, which the other figures "
                           "count, may cover more, for this layout as for any other.</p>\n");
-    sp_text_add(text,
-                "<p>Among %s %zu candidate pose%s "
-                "and the proposal&#39;s own, on %zu texels, no layout reaches ",
-                one ? "this" : "these", found->candidates, one ? "" : "s", found->texels);
+    sp_text_add(text, "<p>Among %s %zu candidate pose%s ", one ? "this" : "these", found->candidates, one ? "" : "s");
+    if (found->candidates < proposal->candidates)
+        sp_text_add(text, "(of %zu; the others are in ports that kept nozzles hold, or were not traced in time) ",
+                    proposal->candidates);
+    sp_text_add(text, "and the proposal&#39;s own, on %zu texels, no layout reaches ", found->texels);
     add_percent(text, found->counted / found->whole, true);
     sp_text_add(text, " with less than ");
     add_least_water(text, found->water_bound);

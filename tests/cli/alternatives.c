@@ -194,6 +194,11 @@ static void the_page_has_every_alternative(void **state)
     assert_non_null(strstr(page, "<th scope=\"col\" class=\"decided\">free &amp; easy (proposed)</th>"));
     assert_null(strstr(page, "free & easy</"));
     assert_int_equal(count_of(page, "What each new fitting buys"), 1);
+    const char *limits = strstr(page, "<th scope=\"row\">Allowed at most</th>");
+    assert_non_null(limits);
+    char row[1024];
+    snprintf(row, sizeof row, "%.*s", (int)strcspn(limits, "\n"), limits);
+    assert_int_equal(count_of(row, ">3 nozzles (max_nozzles)</td>"), 3);
     assert_int_equal(count_of(page, "<path class=\"front\" style="), 3);
     assert_int_equal(count_of(page, "<path class=\"bound\" style="), 3);
     assert_int_equal(count_of(page, "Among these "), 3);
@@ -345,8 +350,8 @@ static void time_is_shared(void **state)
     forget(&done);
 }
 
-/* Whatever the scene names first: what is allowed there, too, is found there, too, and which is proposed is said to hang
- * on the time. Nothing is told of bounds that nobody worked out. */
+/* Whatever the scene names first: what is allowed there, too, is found there, too, and which is proposed is said to
+ * hang on the time. Nothing is told of bounds that nobody worked out. */
 static void nested_ones_are_never_worse(void **state)
 {
     (void)state;

@@ -130,6 +130,12 @@ static void a_certificate_is_told_in_full(void **state)
     assert_bounds_end_at_their_points(html);
     assert_null(strstr(html, "is not known"));
     free(html);
+    /* not those that the search says it looked at */
+    proposal.candidates = 200000;
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "Among these 123456 candidate poses (of 200000; the others are in ports that kept "
+                                 "nozzles hold, or were not traced in time) and the proposal"));
+    free(html);
     text = sp_result_json(&result, &error);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *certificate = json_object_get(all, "certificate");
     EXPECT_KEYS(certificate, "method", "coverage", "coverage_bound_same_water", "water_bound_same_coverage_l_min",
