@@ -57,6 +57,7 @@ typedef struct {
 typedef struct {
     char *name, *type;                         /* owned */
     char *order_code, *url;                    /* owned; of its type */
+    char *overlap;                             /* owned; as sp_layout_overlap tells, "" for none */
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad (sp_nozzle_cone), Pa, m³/s, m/s */

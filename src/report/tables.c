@@ -241,16 +241,15 @@ static bool has_codes(const sp_figures *figures)
     return any;
 }
 
-/* What cannot be built as it is; of figures alone bodies are not known. */
-static void add_overlaps(sp_text *text, const sp_layout *layout)
+/* What cannot be built as it is. */
+static void add_overlaps(sp_text *text, const sp_figures *figures)
 {
-    char overlap[SP_OVERLAP_TEXT];
     size_t told = 0;
-    for (size_t i = 0; layout && i < layout->count; ++i) {
-        if (sp_layout_overlap(layout, i, overlap) == SIZE_MAX)
+    for (size_t i = 0; i < figures->nozzle_count; ++i) {
+        if (!figures->nozzles[i].overlap[0])
             continue;
         sp_text_add(text, told++ ? "; " : "<p class=\"warning\">");
-        sp_markup_escape(text, overlap);
+        sp_markup_escape(text, figures->nozzles[i].overlap);
     }
     if (told)
         sp_text_add(text, ".</p>\n");
@@ -278,7 +277,7 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
         for (size_t k = 0; k < figures->nozzle_count; ++k)
             add_nozzle(text, figures, &figures->nozzles[k], codes);
         sp_text_add(text, "</tbody></table></div>\n");
-        add_overlaps(text, page->result->designs[i].layout);
+        add_overlaps(text, figures);
     }
     sp_text_add(text, "</section>\n");
 }

@@ -61,10 +61,13 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
     figures->fittings = 0;
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
+        char overlap[SP_OVERLAP_TEXT];
+        sp_layout_overlap(layout, i, overlap);
         figures->nozzles[i] = (sp_nozzle_figures){.name = sp_text_utf8(nozzle->name),
                                                   .type = sp_text_utf8(nozzle->type->name),
                                                   .order_code = sp_text_utf8(nozzle->type->order_code),
                                                   .url = sp_text_utf8(nozzle->type->url),
+                                                  .overlap = sp_text_utf8(overlap),
                                                   .position = sp_setup_outside(setup, nozzle->position),
                                                   .axis = nozzle->axis,
                                                   .roll = nozzle->roll,
@@ -77,7 +80,7 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
                                                   .fitting = design->alternative && design->alternative->fittings[i]};
         figures->fittings += figures->nozzles[i].fitting;
         copied &= figures->nozzles[i].name && figures->nozzles[i].type && figures->nozzles[i].order_code &&
-                  figures->nozzles[i].url;
+                  figures->nozzles[i].url && figures->nozzles[i].overlap;
     }
     figures->fittings = design->alternative ? figures->fittings : SP_UNKNOWN;
     return copied;

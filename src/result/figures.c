@@ -17,6 +17,7 @@ static void figures_clear(sp_figures *figures)
         free(figures->nozzles[i].type);
         free(figures->nozzles[i].order_code);
         free(figures->nozzles[i].url);
+        free(figures->nozzles[i].overlap);
     }
     for (size_t i = 0; i < figures->missing_count; ++i)
         free(figures->missing[i].part);
@@ -169,6 +170,7 @@ bool sp_figures_copy(sp_figures *to, const sp_figures *from)
         copied &= own(&nozzle->type);
         copied &= own(&nozzle->order_code);
         copied &= own(&nozzle->url);
+        copied &= own(&nozzle->overlap);
     }
     return copied;
 }

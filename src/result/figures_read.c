@@ -302,6 +302,7 @@ static bool read_nozzle(const sp_json_reader *in, const json_t *entry, sp_nozzle
 {
     return sp_json_text(in, entry, "name", &nozzle->name) && sp_json_text(in, entry, "type", &nozzle->type) &&
            sp_json_text(in, entry, "order_code", &nozzle->order_code) && get_url(in, entry, "url", &nozzle->url) &&
+           sp_json_text(in, entry, "overlap", &nozzle->overlap) &&
            sp_json_vector(in, entry, "position_m", &nozzle->position) &&
            sp_json_vector(in, entry, "axis", &nozzle->axis) &&
            sp_json_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&

@@ -234,6 +234,7 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
     bool done =
         sp_put_text(nozzle, "name", figures->name) && sp_put_text(nozzle, "type", figures->type) &&
         sp_put_text(nozzle, "order_code", figures->order_code) && sp_put_text(nozzle, "url", figures->url) &&
+        (!figures->overlap[0] || sp_put_text(nozzle, "overlap", figures->overlap)) &&
         sp_put_vector(nozzle, "position_m", figures->position) && sp_put_vector(nozzle, "axis", figures->axis) &&
         sp_put_real(nozzle, "roll_rad", figures->roll) && sp_put_real(nozzle, "angle_rad", figures->angle) &&
         sp_put_real(nozzle, "pressure_pa", figures->pressure) &&

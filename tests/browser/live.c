@@ -144,6 +144,8 @@ static void each_action_is_undone_by_itself(void **state)
     (void)state;
     skip_unless_evaluating(carried);
     assert_int_equal(nozzles_after("twice"), nozzles_after("returned") + 2);
+    assert_non_null(strstr(json_string_value(json_object_get(step("twice"), "said")),
+                           " stand in one place: their bodies overlap."));
     assert_int_equal(nozzles_after("once"), nozzles_after("returned") + 1);
     assert_true(json_is_true(json_object_get(found, "isOff")));
     assert_string_not_equal(text_of("drawn", "scene"), text_of("on", "scene"));

@@ -285,6 +285,13 @@ static void bodies_that_overlap_are_told(void **state)
     snprintf(told, sizeof told, "</table></div>\n<p class=\"warning\">%s; %s.</p>", expected[0], expected[1]);
     assert_non_null(strstr(page, told));
     free(page);
+    /* also where all that is left is result.json */
+    done = run_program("compare crowded/result.json room.yaml -o compared --quiet " COARSE);
+    assert_int_equal(done.status, 0);
+    forget(&done);
+    page = read_file("compared/report.html", NULL);
+    assert_non_null(strstr(page, told));
+    free(page);
     json_decref(object);
 }
 

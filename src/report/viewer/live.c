@@ -175,9 +175,9 @@ static json_t *types_json(type_rows *rows)
         double numbers[SP_LIVE_TYPE_NUMBERS];
         sp_live_tell_type(rows->types[i], rows->member_count, numbers);
         rows->member_count += rows->types[i]->member_count;
-        json_array_append_new(list,
-                              json_pack("{s:o, s:o}", "name", text_json(i < rows->named ? rows->types[i]->name : ""),
-                                        "numbers", numbers_json(numbers, SP_LIVE_TYPE_NUMBERS)));
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:f}", "name", text_json(i < rows->named ? rows->types[i]->name : ""),
+                            "numbers", numbers_json(numbers, SP_LIVE_TYPE_NUMBERS), "body", rows->types[i]->body));
     }
     return list;
 }

@@ -37,6 +37,23 @@ function makeTelling(live) {
             element("tbody", {}, ...rows)));
     }
 
+    /* Nozzles whose bodies overlap, as sp_layout_overlap tells of them. */
+    function crowded() {
+        const on = live.nozzles.filter((nozzle) => nozzle.on);
+        return on.flatMap((own, i) => {
+            for (const other of on.slice(0, i)) {
+                const apart = Math.hypot(...own.place.map((x, k) => x - other.place[k]));
+                const bodies = [other, own].map(({type}) => 1e3 * types[type].body);
+                if (apart <= 1e-6)
+                    return [`${other.name} and ${own.name} stand in one place: their bodies overlap.`];
+                if (1e3 * apart < (1 - 1e-9) * (bodies[0] + bodies[1]) / 2)
+                    return [`${other.name} and ${own.name} stand ${short(1e3 * apart, 3)} mm apart: their bodies of ` +
+                        `${short(bodies[0])} mm and ${short(bodies[1])} mm overlap.`];
+            }
+            return [];
+        });
+    }
+
     /* What the scene does not allow: types that do not fit where they are, and more nozzles than are to be. On a mount
      * other than a port kept ones do not count. */
     function broken() {
@@ -71,7 +88,7 @@ function makeTelling(live) {
             finished.stands.forEach((wrong, i) => wrong && live.nozzles[i].on &&
                 words.push(`This layout cannot be built: ${wrong.replace("nozzles: ", live.nozzles[i].name)}.`));
         }
-        answer.replaceChildren(...words.concat(broken()).map((line) => element("p", {}, line)));
+        answer.replaceChildren(...words.concat(broken(), crowded()).map((line) => element("p", {}, line)));
     }
     return {percent, litres, priceOf, tellFigures, tell};
 }
