@@ -5,8 +5,8 @@
 
 /* Of the style's fonts, in pixels. */
 #define DOT 9
-#define LETTER_WIDTH 15.5
 #define LETTER_HEIGHT 21
+#define HALO 3 /* white, around letters */
 #define NUMBER_RADIUS 15
 
 static bool is_free(const sp_labels *labels, const double box[4])
@@ -26,27 +26,38 @@ static void take(sp_labels *labels, const double box[4])
         memcpy(labels->box[labels->count++], box, sizeof labels->box[0]);
 }
 
-static double text_width(const char *name)
+/* The widest that a letter is in the usual bold fonts. */
+static double letter_width(char letter)
 {
-    double letters = 0;
-    for (; *name; ++name)
-        letters += (*name & 0xc0) != 0x80; /* UTF-8 continues with 10xxxxxx */
-    return LETTER_WIDTH * letters;
+    if ((letter & 0xc0) == 0x80) /* UTF-8 continues with 10xxxxxx */
+        return 0;
+    return letter && strchr("MWmw@%", letter) ? 29 : letter && strchr("ijl.,:;'|!()[]", letter) ? 12 : 20;
 }
 
-#define SHARE 0.6 /* of a picture's width, that a name may take: its letters may be wider than most */
+static double text_width(const char *name)
+{
+    double width = 2 * HALO;
+    for (; *name; ++name)
+        width += letter_width(*name);
+    return width;
+}
+
+#define SHARE 0.6 /* of a picture's width, that a name may take */
+#define FEWEST 4  /* letters of it, that it is never cut below */
 
 /* Cuts a name that would not go into the picture, and marks it as cut. */
 static void shorten(sp_text *name, double width)
 {
-    size_t letters = 0, most = width > 0 ? (size_t)fmax(SHARE * width / LETTER_WIDTH, 4) : SIZE_MAX;
+    size_t letters = 0;
+    double most = width > 0 ? SHARE * width : INFINITY, used = 0;
     const char *at = name->text, *cut = NULL;
     for (; *at; ++at) {
         letters += (*at & 0xc0) != 0x80;
-        if (letters == most && !cut)
+        used += letter_width(*at);
+        if (used > most && letters > FEWEST && !cut && (*at & 0xc0) != 0x80)
             cut = at;
     }
-    if (letters <= most || name->failed)
+    if (!cut || name->failed)
         return;
     name->length = (size_t)(cut - name->text);
     sp_text_add(name, "\xe2\x80\xa6");
@@ -77,11 +88,14 @@ static void add_lead(sp_text *text, const double spot[2], const double at[2])
     sp_text_add(text, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>", spot[0], spot[1], at[0], at[1]);
 }
 
-/* Where a name begins beside its dot: on the first side that has room, else where there is some, else on the first. */
-static void place_name(sp_labels *labels, sp_text *text, const char *name, const double dot[2], double at[2])
+/* Where a name begins beside its dot: on the first side that has room, else where there is some. False where there is
+ * none, or where no more labels can be kept clear of: one that lies over others is worth less than none. */
+static bool place_name(sp_labels *labels, sp_text *text, const char *name, const double dot[2], double at[2])
 {
     double width = text_width(name), height = LETTER_HEIGHT + 4, middle[2], box[4];
     const double sides[][2] = {{12, -8}, {12, 26}, {-12 - width, -8}, {-12 - width, 26}, {-width / 2, -16}};
+    if (labels->count == SP_LABELS)
+        return false;
     size_t count = sizeof sides / sizeof *sides, i = 0;
     for (bool room = false; !room && i < count; i += !room) {
         at[0] = dot[0] + sides[i][0];
@@ -89,17 +103,27 @@ static void place_name(sp_labels *labels, sp_text *text, const char *name, const
         memcpy(box, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4}, sizeof box);
         room = is_free(labels, box);
     }
-    if (i == count && find_room(labels, dot, width, height, middle)) {
+    if (i == count) {
+        if (!find_room(labels, dot, width, height, middle))
+            return false;
         at[0] = middle[0] - width / 2;
         at[1] = middle[1] + height / 2 - 4;
         add_lead(text, dot, middle);
-    } else if (i == count) {
-        at[0] = dot[0] + sides[0][0];
-        at[1] = dot[1] + sides[0][1];
-        if (labels->width > 0) /* over others rather than over the next picture */
-            at[0] = fmax(fmin(at[0], labels->width - width), 0);
     }
     take(labels, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4});
+    return true;
+}
+
+static void add_dot(sp_text *text, const double dot[2], const char *name, bool named)
+{
+    sp_text_add(text, "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"", dot[0], dot[1]);
+    if (named) {
+        sp_text_add(text, "/>");
+        return;
+    }
+    sp_text_add(text, "><title>"); /* where the pointer rests */
+    sp_markup_escape(text, name);
+    sp_text_add(text, "</title></circle>\n");
 }
 
 static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const double dot[2])
@@ -115,13 +139,13 @@ static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const 
         return;
     }
     shorten(&name, labels->width);
-    place_name(labels, text, name.text, dot, at);
-    sp_text_add(text,
-                "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" "
-                "y=\"%.1f\">",
-                dot[0], dot[1], at[0], at[1]);
-    sp_markup_escape(text, name.text);
-    sp_text_add(text, "</text>\n");
+    bool named = place_name(labels, text, name.text, dot, at);
+    add_dot(text, dot, name.text, named);
+    if (named) {
+        sp_text_add(text, "<text class=\"name\" x=\"%.1f\" y=\"%.1f\">", at[0] + HALO, at[1]);
+        sp_markup_escape(text, name.text);
+        sp_text_add(text, "</text>\n");
+    }
     text->failed |= name.failed;
     free(name.text);
 }
