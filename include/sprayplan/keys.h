@@ -68,18 +68,19 @@ struct sp_block {
     const sp_key *keys;
 };
 
-typedef enum { SP_TOPIC_SCENE, SP_TOPIC_CATALOGUE, SP_TOPIC_RESULT, SP_TOPIC_FILES } sp_topic;
+typedef enum { SP_TOPIC_SCENE, SP_TOPIC_CATALOGUE, SP_TOPIC_RESULT, SP_TOPIC_FILES, SP_TOPIC_OUTPUTS } sp_topic;
 
-/* The outermost block of a scene file, a catalogue, result.json, or of the files that are written, whose keys are names
- * of files and what stands in them; NULL for no topic. */
+/* The outermost block of a scene file, a catalogue, result.json; or of the files that are written, whose keys are names
+ * of files and what stands in them, or of what other commands print with --json, whose keys are names of these. NULL
+ * for no topic. */
 SP_API const sp_block *sp_topic_block(sp_topic topic);
 
 enum { SP_KEY_FORM = 400 }; /* bytes, the terminating zero included */
 /* What a value of that key looks like, in words: "a pressure above 0 such as 2 bar, or a list of them". */
 SP_API void sp_key_form(const sp_key *key, char form[SP_KEY_FORM]);
 
-/* A JSON Schema (draft 2020-12) of the topic, for editors; it ends with a newline. Malloc'd; NULL where memory runs
- * out. */
+/* A JSON Schema (draft 2020-12) of a scene, a catalogue or a result, for editors; it ends with a newline. Malloc'd;
+ * NULL of other topics, and where memory runs out. */
 SP_API char *sp_topic_schema(sp_topic topic, sp_error *error);
 
 #ifdef __cplusplus

@@ -11,8 +11,9 @@ static int print_schema(const char *name)
 {
     sp_error error = {0};
     const cli_topic *topic = cli_topic_named(name);
-    if (!topic || topic->topic == SP_TOPIC_FILES) {
-        fprintf(stderr, "sprayplan: help: found \"%s\", expected scene, catalogue or result, which have a schema\n", name);
+    if (!topic || topic->topic >= SP_TOPIC_FILES) {
+        fprintf(stderr, "sprayplan: help: found \"%s\", expected scene, catalogue or result, which have a schema\n",
+                name);
         return EXIT_USAGE;
     }
     char *schema = sp_topic_schema(topic->topic, &error);

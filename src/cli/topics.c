@@ -11,6 +11,7 @@ const cli_topic cli_topics[] = {
     {"catalogue", "keys of a catalogue of nozzle types", SP_TOPIC_CATALOGUE},
     {"result", "keys of result.json, which --json prints too", SP_TOPIC_RESULT},
     {"files", "files that simulate and place write, and the columns and channels in them", SP_TOPIC_FILES},
+    {"outputs", "keys of what check, study, atlas, bench and trace print with --json", SP_TOPIC_OUTPUTS},
     {NULL, NULL, SP_TOPIC_SCENE},
 };
 

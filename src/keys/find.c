@@ -6,7 +6,8 @@
 
 const sp_block *sp_topic_block(sp_topic topic)
 {
-    static const sp_block *const blocks[] = {&sp_block_scene, &sp_block_catalogue, &sp_block_result, &sp_block_files};
+    static const sp_block *const blocks[] = {&sp_block_scene, &sp_block_catalogue, &sp_block_result, &sp_block_files,
+                                             &sp_block_outputs};
     return (unsigned)topic < sizeof blocks / sizeof *blocks ? blocks[topic] : NULL;
 }
 

@@ -144,7 +144,7 @@ static bool add_block(json_t *blocks, const sp_block *block)
 
 char *sp_topic_schema(sp_topic topic, sp_error *error)
 {
-    const sp_block *block = topic == SP_TOPIC_FILES ? NULL : sp_topic_block(topic);
+    const sp_block *block = topic >= SP_TOPIC_FILES ? NULL : sp_topic_block(topic);
     if (!block) {
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "there are schemas of scenes, catalogues and results alone");
         return NULL;

@@ -37,7 +37,7 @@ cpack --config "$build/CPackConfig.cmake" -G DEB -B . -D CPACK_DEBIAN_COMPRESSIO
     { cat log; exit 1; }
 lib="/usr/lib/[^/]*"
 has sprayplan /usr/bin/sprayplan "$lib/sprayplan/sprayplan-(ceres|images)\.so" /usr/share/man/man1/sprayplan.1.gz \
-    "/usr/share/man/man5/sprayplan-(scene|catalogue|result|files).5.gz" /usr/share/doc/sprayplan/examples/CONCEPTS.md \
+    "/usr/share/man/man5/sprayplan-(scene|catalogue|result|files|outputs).5.gz" /usr/share/doc/sprayplan/examples/CONCEPTS.md \
     /usr/share/bash-completion/completions/sprayplan
 has libsprayplan0 "$lib/libsprayplan\.so\.0" "$lib/libsprayplan\.so\.0\.[0-9.]*"
 has libsprayplan-dev "$lib/libsprayplan\.so" "$lib/libsprayplan\.a" "/usr/include/sprayplan/[a-z]*\.h" \

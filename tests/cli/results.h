@@ -4,8 +4,6 @@
 
 #include "workplace.h"
 
-#include <sprayplan/keys.h>
-
 /* Where what is asserted holds of any texels, and finer ones take long. */
 #define COARSE "--set simulate.texel=100mm"
 
@@ -15,73 +13,13 @@ static inline double number(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
-static inline bool is_word(const json_t *value, const char *const *words)
-{
-    const char *text = json_string_value(value);
-    for (; text && *words; words++)
-        if (!strcmp(text, *words))
-            return true;
-    return false;
-}
-
-static inline bool are_numbers(const json_t *list)
-{
-    for (size_t i = 0; i < json_array_size(list); i++)
-        if (!json_is_number(json_array_get(list, i)))
-            return false;
-    return json_is_array(list);
-}
-
-static inline bool is_of_kind(const sp_key *key, const json_t *value)
-{
-    switch (key->kind) {
-    case SP_KEY_NUMBER:
-        return json_is_number(value);
-    case SP_KEY_NUMBERS:
-        return are_numbers(value);
-    case SP_KEY_COUNT:
-        return json_is_integer(value);
-    case SP_KEY_FLAG:
-        return json_is_boolean(value);
-    case SP_KEY_CHOICE:
-        return is_word(value, key->words);
-    case SP_KEY_BLOCK:
-        return json_is_object(value);
-    case SP_KEY_BLOCKS:
-    case SP_KEY_TEXTS:
-        return json_is_array(value);
-    default:
-        return json_is_string(value);
-    }
-}
-
-/* Nothing is there but what `sprayplan help result` says, where it says it. */
-static inline void require_explained(const sp_block *block, json_t *object)
-{
-    const char *name;
-    json_t *value;
-    json_object_foreach(object, name, value)
-    {
-        const sp_key *key = block->keys;
-        while (key->name && strcmp(key->name, name))
-            key++;
-        if (!key->name || !is_of_kind(key, value))
-            fail_msg("%s of %s is not as explained", name, block->what);
-        if (key->kind == SP_KEY_BLOCK)
-            require_explained(key->block, value);
-        for (size_t i = 0; key->kind == SP_KEY_BLOCKS && i < json_array_size(value); i++)
-            require_explained(key->block, json_array_get(value, i));
-    }
-}
-
 static inline json_t *json_file(const char *name)
 {
     char *text = read_file(name, NULL);
     assert_non_null(text);
     json_t *object = json_loads(text, 0, NULL);
     assert_non_null(object);
-    if (json_object_get(object, "layouts"))
-        require_explained(sp_topic_block(SP_TOPIC_RESULT), object);
+    require_output_explained(object);
     free(text);
     return object;
 }

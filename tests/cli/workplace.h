@@ -2,6 +2,8 @@
 #ifndef CLI_WORKPLACE_H
 #define CLI_WORKPLACE_H
 
+#include "explained.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -137,6 +139,7 @@ static inline json_t *expect_json(const char *arguments, int status)
     if (!object)
         print_error("line %d: %s\n", error.line, error.text);
     assert_true(json_is_object(object));
+    require_output_explained(object);
     forget(&result);
     return object;
 }

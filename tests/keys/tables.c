@@ -64,9 +64,9 @@ static void check_texts(const sp_block *block, void *state)
 
 static void every_key_is_explained(void **state)
 {
-    for (sp_topic topic = SP_TOPIC_SCENE; topic <= SP_TOPIC_FILES; topic++)
+    for (sp_topic topic = SP_TOPIC_SCENE; topic <= SP_TOPIC_OUTPUTS; topic++)
         visit_topic(topic, check_texts, *state);
-    assert_null(sp_topic_block(SP_TOPIC_FILES + 1));
+    assert_null(sp_topic_block(SP_TOPIC_OUTPUTS + 1));
 }
 
 /* A key that some sample has. */
