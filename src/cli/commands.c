@@ -58,11 +58,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_BENCH] = {"bench", "MESH", "build, trace and atlas timings of every accelerator on a mesh",
                    "Traces the same rays with every accelerator in turn and prints what building and tracing took.",
                    "sprayplan bench vessel.obj --unit mm --mode cone", 1, 1},
-    [CLI_HELP] =
-        {"help", "[COMMAND|TOPIC]", "what a command does, or what the keys of a file mean",
-         "Of a command prints the same as COMMAND --help; of a topic (scene, catalogue, result, files) every key, "
-         "what it may be, what is so without it and what it means; without either, what there is.",
-         "sprayplan help scene", 0, 1},
+    [CLI_HELP] = {"help", "[COMMAND|TOPIC]", "what a command does, or what the keys of a file mean",
+                  "Of a command prints the same as COMMAND --help; of a topic (scene, catalogue, result, files, "
+                  "outputs) every key, "
+                  "what it may be, what is so without it and what it means; without either, what there is.",
+                  "sprayplan help scene", 0, 1},
 };
 
 #define OF(command) (1u << (command))

@@ -249,6 +249,11 @@ static void check_doubts_thresholds_of_another_unit(void **state)
             assert_null(told);
         json_decref(object);
     }
+    /* also where layouts are counted by it */
+    write_room_with("absurd.yaml", "flux: 1 L/min/m2", "flux: 1 m/s");
+    outcome counted = run_program("simulate absurd.yaml " COARSE);
+    assert_non_null(strstr(counted.out, "warning: criterion: flux is 60000 L/min/m2, more than nozzles bring"));
+    forget(&counted);
 }
 
 /* In one place, nearer than their bodies allow, and as near as these allow. */
