@@ -38,9 +38,10 @@ typedef struct {
  * the criterion alone covers the share of the patch that lies inside the spray; one that does not may still do so with
  * others', and counts where the patch's point lies inside. The shares that several patterns cover are taken to lie
  * anywhere: together they leave dry the product of what each leaves dry; of nozzles that share their edges (see
- * sp_layout_repeats) these lie in one place and count once. Of a patch that is cut into cells (see
- * sp_arrival) each covers a share of its own part, or brings its part of what falls on all of the patch. Starts as
- * {0, 1, 0}. */
+ * sp_layout_repeats) these lie in one place and count once. Where patterns of one nozzle leave one point, one after the
+ * other in their order, it is looked at how their shares lie: of edges that coincide the patch is dry by the least that
+ * one leaves, and those that abut add up. Of a patch that is cut into cells (see sp_arrival) each covers a share of its
+ * own part, or brings its part of what falls on all of the patch. Starts as {0, 1, 0}. */
 typedef struct {
     double even;  /* flux on all of the patch, as `threshold` */
     double dry;   /* share that is not covered by the edges */

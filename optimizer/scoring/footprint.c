@@ -1,5 +1,7 @@
 #include "scoring/footprint.h"
 
+#include "spray/edges.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,8 +9,9 @@
 typedef struct {
     const sp_search *search;
     double *even, *dry; /* [patch_count], see sp_wetting */
-    float *film;        /* [patch_count], of all patterns; NULL: not asked for */
-    float *own;         /* [patch_count], of the pattern in hand */
+    sp_edges edges;
+    float *film; /* [patch_count], of all patterns; NULL: not asked for */
+    float *own;  /* [patch_count], of the pattern in hand */
     sp_runoff *runoff;
     double *arriving; /* [patch_count], m³/s, the runoff's */
 } sum;
@@ -24,6 +27,7 @@ static void sum_free(sum *s)
 {
     free(s->even);
     free(s->dry);
+    sp_edges_free(&s->edges);
     free(s->film);
     free(s->own);
 }
@@ -38,9 +42,10 @@ static bool sum_create(const sp_search *search, sum *s, sp_error *error)
         s->runoff = sp_search_runoff(search);
         s->arriving = sp_runoff_arriving(s->runoff);
     }
-    if (!s->even || !s->dry || (search->runoffs && (!s->film || !s->own))) {
+    bool room_left = s->even && s->dry && (!search->runoffs || (s->film && s->own));
+    if (!sp_edges_create(search->coarse, &s->edges, error) || !(room_left || sp_fail_memory(error))) {
         sum_free(s);
-        return sp_fail_memory(error);
+        return false;
     }
     for (size_t p = 0; p < search->patch_count; p++)
         s->dry[p] = 1;
@@ -64,6 +69,7 @@ static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_ar
     double area = sp_evaluator_patches(s->search->coarse)->area[first->patch], left = pattern->flow,
            threshold = s->search->threshold;
     sp_wetting wetting = {0, 1, 0};
+    sp_edge_samples samples = sp_edge_samples_dark();
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
         double share = sp_spray_share(&pattern->spray, &pattern->frame, arrival->direction, arrival->breadth),
                flux = flux_of(pattern, arrival, share);
@@ -72,14 +78,17 @@ static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_ar
         left -= brings;
         if (s->arriving)
             s->arriving[first->patch] += brings;
-        if (arrival->passes)
-            sp_wetting_add(&wetting, flux, threshold, arrival->part, share,
-                           !sp_flux_suffices(flux, threshold) &&
-                               sp_spray_holds(&pattern->spray, &pattern->frame, arrival->direction));
+        if (!arrival->passes)
+            continue;
+        bool alone = sp_flux_suffices(flux, threshold);
+        sp_wetting_add(&wetting, flux, threshold, arrival->part, share,
+                       !alone && sp_spray_holds(&pattern->spray, &pattern->frame, arrival->direction));
+        if (alone)
+            sp_edges_sample(&s->edges, arrival, share, &samples);
     }
     sp_wetting settled = sp_wetting_settle(wetting, threshold);
     s->even[first->patch] += settled.even;
-    s->dry[first->patch] *= settled.dry;
+    sp_edges_add(&s->edges, first->patch, settled.dry, samples, s->dry);
 }
 
 static bool lay_pattern(const sp_nozzle *nozzle, sum *s, sp_error *error)
@@ -142,9 +151,12 @@ static bool write_prints(const sum *s, sp_footprint *footprint, sp_error *error)
 
 static bool lay_all(const sp_nozzle *patterns, size_t count, sum *s, sp_error *error)
 {
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        sp_edges_begin(&s->edges, patterns, i, count);
         if (!lay_pattern(&patterns[i], s, error))
             return false;
+        sp_edges_end(&s->edges, patterns, i, count, s->dry);
+    }
     return true;
 }
 

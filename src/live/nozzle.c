@@ -94,8 +94,10 @@ static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *b
         if (!(flow > 0))
             continue;
         traced = traced || !known;
+        sp_combination_begin_pattern(combination, patterns->nozzles, i, patterns->count);
         done = known ? lay_known(live, kept, &emitter, flow, stride, combination)
                      : lay_traced(live, &emitter, flow, stride, combination);
+        sp_combination_end_pattern(combination, patterns->nozzles, i, patterns->count);
     }
     sp_combination_end_nozzle(combination);
     live->figures[SP_LIVE_TRACED] += traced;

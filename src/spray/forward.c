@@ -236,7 +236,8 @@ static void count_pattern(jet_flight *flight)
                share = flux > 0 && !spread ? sp_lit_share(evaluator, &flight->lit, (uint32_t)i) : 1;
         sp_wetting wetting = {0, 1, 0};
         sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, 1, share, share >= 0.5);
-        sp_combination_add(&flight->combination, (uint32_t)i, flux, &wetting);
+        sp_combination_add(&flight->combination, (uint32_t)i, flux, &wetting,
+                           share < 1 ? sp_lit_samples(&flight->lit, (uint32_t)i) : sp_edge_samples_dark());
         flight->counted[i] = 0;
     }
     sp_lit_clear(evaluator, &flight->lit);
@@ -250,10 +251,14 @@ static bool fly_bodies(jet_flight *flight, const sp_bodies *bodies, sp_error *er
         all += (double)pattern_jets(flight, &patterns->nozzles[n]);
     for (size_t b = 0; b < bodies->layout->count; b++) {
         sp_combination_begin_nozzle(&flight->combination, bodies->layout, b);
-        for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
-            if (!fly_pattern(flight, &patterns->nozzles[n], &done, all, error))
+        const sp_nozzle *own = &patterns->nozzles[bodies->first[b]];
+        size_t count = bodies->first[b + 1] - bodies->first[b];
+        for (size_t i = 0; i < count; i++) {
+            if (!fly_pattern(flight, &own[i], &done, all, error))
                 return false;
+            sp_combination_begin_pattern(&flight->combination, own, i, count);
             count_pattern(flight);
+            sp_combination_end_pattern(&flight->combination, own, i, count);
         }
         sp_combination_end_nozzle(&flight->combination);
     }

@@ -13,6 +13,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
     sp_wetting wetting = {0, 1, 0};
+    sp_edge_samples samples = sp_edge_samples_dark();
     /* no patch receives more than there is, however dense the flights are at its points */
     double counted = 0, left = flow / emitter->source.evaluator->patches.area[first->patch];
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
@@ -32,8 +33,10 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         else
             sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
                            !alone && sp_emitter_holds(emitter, arrival->direction));
+        if (alone)
+            sp_edges_sample(&combination->edges, arrival, share, &samples);
     }
-    sp_combination_add(combination, first->patch, counted, &wetting);
+    sp_combination_add(combination, first->patch, counted, &wetting, samples);
 }
 
 void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count,
@@ -68,12 +71,15 @@ static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, s
     sp_watch watch = sp_watch_start(evaluator, "patches", bodies->patterns->count * evaluator->patches.count);
     for (size_t b = 0; b < bodies->layout->count; b++) {
         sp_combination_begin_nozzle(combination, bodies->layout, b);
-        for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
-            const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
-            sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);
-            double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+        const sp_nozzle *patterns = &bodies->patterns->nozzles[bodies->first[b]];
+        size_t count = bodies->first[b + 1] - bodies->first[b];
+        for (size_t i = 0; i < count; i++) {
+            sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, bodies->first[b] + i);
+            double flow = sp_nozzle_flow(&patterns[i], &evaluator->setup.liquid);
+            sp_combination_begin_pattern(combination, patterns, i, count);
             if (flow > 0 && !lay_pattern(&emitter, flow, &watch, combination, work, error))
                 return false;
+            sp_combination_end_pattern(combination, patterns, i, count);
         }
         sp_combination_end_nozzle(combination);
     }

@@ -150,17 +150,31 @@ static double density_beside(const sp_evaluator *evaluator, const sp_lit *lit, u
     return area > 0 ? jets / area : 0;
 }
 
+/* The finest blocks of which the jets tell whether they are lit: a patch's lit cells then; 0 where none do. */
+static uint64_t lit_blocks(const sp_lit *lit, uint32_t patch, int *level)
+{
+    for (*level = 0; 1 << *level < SP_LIT_EDGE; (*level)++) {
+        uint64_t hit = joined(lit->hit[patch], *level) & lit->own[patch];
+        if ((uint64_t)lit->jets[patch] << 2 * *level >= (uint64_t)JETS_A_CELL * (uint64_t)count_cells(hit) && hit)
+            return hit;
+    }
+    return 0;
+}
+
 static double share_of_cells(const sp_lit *lit, uint32_t patch)
 {
-    uint64_t own = lit->own[patch];
-    for (int level = 0; 1 << level < SP_LIT_EDGE; level++) {
-        uint64_t hit = joined(lit->hit[patch], level) & own, dark = own & ~hit;
-        if ((uint64_t)lit->jets[patch] << 2 * level < (uint64_t)JETS_A_CELL * (uint64_t)count_cells(hit) || !hit)
-            continue;
-        double rim = count_cells(hit & joined(beside(dark), level));
-        return (count_cells(hit) - 0.5 * rim) / count_cells(own);
-    }
-    return 1;
+    int level;
+    uint64_t own = lit->own[patch], hit = lit_blocks(lit, patch, &level);
+    if (!hit)
+        return 1;
+    double rim = count_cells(hit & joined(beside(own & ~hit), level));
+    return (count_cells(hit) - 0.5 * rim) / count_cells(own);
+}
+
+sp_edge_samples sp_lit_samples(const sp_lit *lit, uint32_t patch)
+{
+    int level;
+    return (sp_edge_samples){lit->own[patch] & ~lit_blocks(lit, patch, &level), lit->own[patch]};
 }
 
 double sp_lit_share(const sp_evaluator *evaluator, const sp_lit *lit, uint32_t patch)

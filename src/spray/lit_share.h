@@ -2,6 +2,7 @@
 #ifndef SPRAY_LIT_SHARE_H
 #define SPRAY_LIT_SHARE_H
 
+#include "edges.h"
 #include "spray/state/state.h"
 
 #define SP_LIT_EDGE 8 /* a texel's cells along either edge; bit y * SP_LIT_EDGE + x of a mask is a cell */
@@ -27,5 +28,7 @@ static inline void sp_lit_add(sp_lit *lit, uint32_t patch, unsigned cell)
  * per area as there; else what cells were hit tells, those on the rim counting half. Where jets are too few for either,
  * all of it. */
 double sp_lit_share(const sp_evaluator *evaluator, const sp_lit *lit, uint32_t patch);
+/* Its cells, in blocks that are as large as so few jets tell apart, as samples. */
+sp_edge_samples sp_lit_samples(const sp_lit *lit, uint32_t patch);
 
 #endif
