@@ -59,10 +59,17 @@ static bool is_a_surface(const sp_sheet *sheet)
     return sheet->triangle_count >= SURFACE_TRIANGLES || inner > 0;
 }
 
-/* Whether a few batches more, each a gain like the last, would reach the share. */
-static bool is_near(double before, double now, double share)
+/* Whether a few batches more, each a gain like the last, would come down to what is asked for. */
+static bool comes_near(double before, double now, double asked)
 {
-    return now < before && now - FURTHER * (before - now) <= share;
+    return now <= asked || (now < before && now - FURTHER * (before - now) <= asked);
+}
+
+/* Of triangles that lie turned over too: each batch carries round-off on, and after dozens of them it would decide what
+ * becomes of a sheet that holds on to a few. */
+static bool is_near(const sp_strain *before, const sp_strain *now, double share)
+{
+    return comes_near(before->share, now->share, share) && comes_near((double)before->flipped, (double)now->flipped, 0);
 }
 
 /* What is left of a larger sheet lies there as that strained it; alone it has no reason to. */
@@ -90,9 +97,9 @@ sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relax
     if (!exact) {
         /* More for wider sheets, but not without end: what is left waits for the next round. */
         int inner = 6 + (int)fmin(sqrt((double)sheet->vertex_count) / 4, 10);
-        double before = INFINITY;
-        for (int batch = 0; batch < BATCHES || is_near(before, strain.share, sheets->share); batch++) {
-            before = strain.share;
+        sp_strain before = strain;
+        for (int batch = 0; batch < BATCHES || is_near(&before, &strain, sheets->share); batch++) {
+            before = strain;
             if (!sp_relax(relaxer, sheets, sheet, ROUNDS, inner))
                 return SP_SHEET_MEMORY;
             strain = sp_measure_strain(sheets, sheet);
