@@ -66,10 +66,11 @@ typedef struct {
 #define SP_ATLAS_THIN 1e-6
 
 /* A texel is one connected patch of one chart inside one pixel of a page. Nearly always it is all that the pixel holds;
- * where the two lips of a cut or of a fold cross a pixel, each has a texel of its own. Texels [0, pixel_count) are the
- * largest patch of every used pixel, ordered by page, then y, then x; further patches follow in the order of their
- * pixels. A pixel is the square [x, x+1] × [y, y+1]. Only used pixels are numbered, and what is kept for one is its
- * area: memory follows the surface, not the pages. Nothing is spread over unused pixels. Read-only. */
+ * where the two lips of a cut or of a fold cross a pixel, each has a texel of its own, and so has each face where the
+ * surface turns by more than 75 degrees at an edge of the mesh. Texels [0, pixel_count) are the largest patch of every
+ * used pixel, ordered by page, then y, then x; further patches follow in the order of their pixels. A pixel is the
+ * square [x, x+1] × [y, y+1]. Only used pixels are numbered, and what is kept for one is its area: memory follows the
+ * surface, not the pages. Nothing is spread over unused pixels. Read-only. */
 typedef struct {
     double texel; /* edge length of a pixel, m, unless its chart has another */
     size_t triangle_count, chart_count, page_count;

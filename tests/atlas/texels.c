@@ -284,6 +284,32 @@ static void expect_polygons(const sp_atlas *atlas, const sp_fragments *fragments
         }
 }
 
+/* No texel has triangles of two faces that meet at a right angle. */
+static void expect_one_face(const sp_fragments *fragments, size_t texel_count, const sp_mesh *mesh)
+{
+    for (size_t texel = 0; texel < texel_count; texel++) {
+        sp_vec3 first = sp_triangle_normal(mesh, fragments->items[fragments->start[texel]].triangle);
+        for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++)
+            assert_true(sp_dot(first, sp_triangle_normal(mesh, fragments->items[f].triangle)) > 0.5);
+    }
+}
+
+static void faces_of_a_box_share_no_texel(void **state)
+{
+    (void)state;
+    sp_mesh *mesh = box(1, 2, 3);
+    for (int k = 0; k < 20; k++) {
+        sp_atlas *atlas = atlas_of(mesh, 0.09 + 0.013 * k, 0);
+        sp_fragments fragments = fragments_of(atlas, mesh);
+        assert_true(atlas->chart_count < 6);
+        assert_true(atlas->texel_count > atlas->pixel_count);
+        expect_one_face(&fragments, atlas->texel_count, mesh);
+        sp_fragments_destroy(&fragments);
+        sp_atlas_destroy(atlas);
+    }
+    sp_mesh_destroy(mesh);
+}
+
 static void expect_sound(sp_mesh *mesh, double texel, uint32_t page_edge)
 {
     sp_atlas *atlas = atlas_of(mesh, texel, page_edge);
@@ -498,10 +524,11 @@ static void refuses_what_does_not_fit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_shape_at_every_texel), cmocka_unit_test(every_scale),
-        cmocka_unit_test(triangles_of_all_sizes),     cmocka_unit_test(whole_texels_of_a_sheet_are_whole),
-        cmocka_unit_test(lips_of_a_cut_do_not_touch), cmocka_unit_test(seams_are_bridged),
-        cmocka_unit_test(twice_gives_the_same_bytes), cmocka_unit_test(refuses_what_does_not_fit),
+        cmocka_unit_test(every_shape_at_every_texel),    cmocka_unit_test(every_scale),
+        cmocka_unit_test(triangles_of_all_sizes),        cmocka_unit_test(whole_texels_of_a_sheet_are_whole),
+        cmocka_unit_test(lips_of_a_cut_do_not_touch),    cmocka_unit_test(seams_are_bridged),
+        cmocka_unit_test(twice_gives_the_same_bytes),    cmocka_unit_test(refuses_what_does_not_fit),
+        cmocka_unit_test(faces_of_a_box_share_no_texel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

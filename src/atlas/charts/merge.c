@@ -7,6 +7,7 @@
 #include "atlas/charts/join.h"
 #include "atlas/charts/orient.h"
 #include "atlas/charts/settle.h"
+#include "atlas/texels/texels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +18,6 @@
 #define DEVELOPABLE_GAP 1e-4 /* over the length of the shared boundary */
 #define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that must be shared */
 #define MOST_WASTE 1.126     /* box around the union over those around the two; above 9/8, which boxes may have */
-#define CREASE 0.26          /* cosine of 75 degrees: an edge this sharp parts faces, as of a box */
 #define PATCH_SHARE 0.05     /* of the area of developable surface, that a sheet may have which joins it with strain */
 
 typedef struct {
@@ -130,8 +130,7 @@ static bool is_crease(const merging *m, const sp_shared_boundary *shared)
     const sp_sheets *sheets = m->sheets;
     uint32_t here = shared->first;
     for (uint32_t i = 0; i < shared->count; i++, here = sp_boundary_next(sheets, here)) {
-        uint32_t there = sheets->twin[here];
-        if (sp_dot(sp_triangle_normal(sheets->mesh, here / 3), sp_triangle_normal(sheets->mesh, there / 3)) > CREASE)
+        if (!sp_edge_is_crease(sheets->mesh, here, sheets->twin[here]))
             return false;
     }
     return true;

@@ -186,12 +186,13 @@ static bool visit_piece(const fold *f, sp_border border)
     return f->walk->visit(f->walk->user, &border);
 }
 
-/* True where the two triangles of an edge lie side by side on the page: they share all texels that it crosses, unless
- * it runs along a border of pixels. */
+/* True where the two triangles of an edge lie side by side on the page, in one face: they share all texels that it
+ * crosses, unless it runs along a border of pixels. */
 static bool is_inside(const walk *w, uint32_t a, uint32_t b)
 {
     double p[2], q[2];
-    if (a == b || !sp_edge_is_opposite(w->mesh, a, b) || sp_edge_is_cut(w->atlas, w->mesh, a, b))
+    if (a == b || !sp_edge_is_opposite(w->mesh, a, b) || sp_edge_is_cut(w->atlas, w->mesh, a, b) ||
+        sp_edge_is_crease(w->mesh, a, b))
         return false;
     sp_edge_point(w->atlas, a, 0, p);
     sp_edge_point(w->atlas, a, 1, q);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #define COINCIDENT 1e-6 /* pixels: two sides of an edge nearer to each other than this are not cut apart */
+#define CREASE 0.26     /* cosine of 75 degrees */
 
 /* The next border that coordinate p + t (q - p) meets after its `k`-th, as t; beyond 1 where there is none. */
 static double crossing(double p, double q, double k)
@@ -70,4 +71,11 @@ bool sp_edge_is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint
             return true;
     }
     return false;
+}
+
+bool sp_edge_is_crease(const sp_mesh *mesh, uint32_t a, uint32_t b)
+{
+    sp_vec3 here = sp_triangle_normal(mesh, a / 3), there = sp_triangle_normal(mesh, b / 3);
+    bool face = sp_dot(here, here) > 0 && sp_dot(there, there) > 0; /* what has no area faces nowhere */
+    return face && sp_dot(here, there) <= CREASE;
 }

@@ -1,6 +1,7 @@
-/* Pixels that several patches cross. Only where a cut passes can a pixel hold more than one: elsewhere the chart goes
- * on in all directions. There the pixel's triangles are joined wherever they touch along an edge of the mesh inside the
- * pixel, which says what is one patch of the surface however the chart was cut. */
+/* Pixels that several patches cross. Only where a cut or a crease passes can a pixel hold more than one: elsewhere the
+ * chart goes on in all directions. There the pixel's triangles are joined wherever they touch along an edge of the mesh
+ * inside the pixel, which says what is one patch of the surface however the chart was cut; but not across a crease,
+ * where liquid that wets one face may miss the other, and a patch of both were judged by either of them. */
 #include "mesh/adjacent.h"
 #include "mesh/bits.h"
 #include "mesh/key_sort.h"
@@ -55,7 +56,7 @@ static bool mark_side(const sp_atlas *atlas, uint32_t half_edge, uint64_t *bits,
     return true;
 }
 
-/* Marks the pixels that cuts pass, open edges among them. */
+/* Marks the pixels that cuts pass, open edges among them, and creases. */
 static bool mark_cuts(const sp_atlas *atlas, const sp_half_edges *edges, const sp_mesh *mesh, uint64_t *bits,
                       size_t row_words)
 {
@@ -63,7 +64,7 @@ static bool mark_cuts(const sp_atlas *atlas, const sp_half_edges *edges, const s
     bool done = true;
     for (uint32_t h = 0; done && h < 3 * atlas->triangle_count; h++) {
         uint32_t other = edges->opposite[h];
-        if (other == SP_NONE || sp_edge_is_cut(atlas, mesh, h, other))
+        if (other == SP_NONE || sp_edge_is_cut(atlas, mesh, h, other) || sp_edge_is_crease(mesh, h, other))
             done = mark_side(atlas, h, bits, row_words, &crossings);
     }
     free(crossings.items);
@@ -171,7 +172,7 @@ static uint32_t root_of(const group *g, uint32_t i)
 }
 
 /* Returns how many patches the group makes. */
-static size_t join(group *g, const sp_atlas *atlas, const sp_half_edges *edges)
+static size_t join(group *g, const sp_atlas *atlas, const sp_mesh *mesh, const sp_half_edges *edges)
 {
     sp_texel_place at = sp_atlas_place(atlas, (uint32_t)(g->pairs[0] >> 32));
     size_t patches = g->count;
@@ -181,7 +182,7 @@ static size_t join(group *g, const sp_atlas *atlas, const sp_half_edges *edges)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t h = 3 * (uint32_t)g->pairs[i] + k, other = edges->opposite[h];
             size_t j = other == SP_NONE || other < h ? SIZE_MAX : index_of(g, other / 3);
-            if (j == SIZE_MAX || !meet_in(atlas, h, other, at))
+            if (j == SIZE_MAX || sp_edge_is_crease(mesh, h, other) || !meet_in(atlas, h, other, at))
                 continue;
             uint32_t a = root_of(g, i), b = root_of(g, (uint32_t)j);
             patches -= a != b;
@@ -243,7 +244,7 @@ static bool split_pixels(sp_atlas *atlas, const sp_mesh *mesh, const sp_half_edg
         if (g.count == 1)
             continue;
         done = room(&g, g.count);
-        size_t patches = done ? join(&g, atlas, edges) : 1;
+        size_t patches = done ? join(&g, atlas, mesh, edges) : 1;
         if (patches == 1)
             continue;
         done = grow(atlas, patches - 1, g.count);
@@ -283,7 +284,7 @@ bool sp_atlas_count_shared(const sp_atlas *atlas, const sp_mesh *mesh, size_t *s
         g.pairs = p.items;
         g.count = p.count;
         done = done && room(&g, g.count + 1);
-        *shared += done && join(&g, atlas, &edges) != 1;
+        *shared += done && join(&g, atlas, mesh, &edges) != 1;
     }
     free_group(&g);
     free(p.items);

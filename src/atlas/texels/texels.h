@@ -69,6 +69,9 @@ void sp_edge_weights(uint32_t half_edge, double part, double *u, double *v);
 void sp_edge_point(const sp_atlas *atlas, uint32_t half_edge, double part, double point[2]);
 /* edges.c: true where two half-edges of one edge do not lie on each other on the page. */
 bool sp_edge_is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b);
+/* edges.c: true where the surface turns by more than 75 degrees across an edge, as at those of a box: two faces meet. a
+ * and b are each other's opposite. */
+bool sp_edge_is_crease(const sp_mesh *mesh, uint32_t a, uint32_t b);
 /* edges.c: true where half-edges of one edge run against each other. */
 bool sp_edge_is_opposite(const sp_mesh *mesh, uint32_t a, uint32_t b);
 
