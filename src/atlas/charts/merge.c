@@ -129,10 +129,9 @@ static bool is_crease(const merging *m, const sp_shared_boundary *shared)
 {
     const sp_sheets *sheets = m->sheets;
     uint32_t here = shared->first;
-    for (uint32_t i = 0; i < shared->count; i++, here = sp_boundary_next(sheets, here)) {
+    for (uint32_t i = 0; i < shared->count; i++, here = sp_boundary_next(sheets, here))
         if (!sp_edge_is_crease(sheets->mesh, here, sheets->twin[here]))
             return false;
-    }
     return true;
 }
 
