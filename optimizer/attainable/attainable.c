@@ -203,11 +203,13 @@ static sp_scope *scopes_create(const sp_search *search, const sp_setup *setup)
     return scopes;
 }
 
-/* What footprints that were left out would bring is not known; where no line leads they would not either. */
-static void doubt(const sp_search *search, size_t patches, sp_reason *reasons)
+/* What was left out of fields and footprints would bring is not known; where no line leads footprints would not either,
+ * film might. */
+static void doubt(const sp_search *search, bool whole, size_t patches, sp_reason *reasons)
 {
-    for (size_t p = 0; !sp_footprints_whole(search->footprints) && p < patches; p++)
-        if (reasons[p] == SP_REASON_FLUX)
+    bool all = !whole && sp_evaluator_setup(search->coarse)->criterion.film > 0;
+    for (size_t p = 0; !(whole && sp_footprints_whole(search->footprints)) && p < patches; p++)
+        if (reasons[p] == SP_REASON_FLUX || (all && reasons[p] != SP_REASON_ATTAINABLE))
             reasons[p] = SP_REASON_UNKNOWN;
 }
 
@@ -218,6 +220,25 @@ static void allow_thrown_back(size_t patches, sp_reason *reasons)
     for (size_t p = 0; p < patches; p++)
         if (reasons[p] != SP_REASON_NO_LINE && reasons[p] != SP_REASON_UNKNOWN)
             reasons[p] = SP_REASON_ATTAINABLE;
+}
+
+/* By fields what closed forms do not tell, and why not where that is more to ask. */
+static bool ask_fields(const sp_reckoning *reckoning, sp_deadline *deadline, sp_reason *reasons, sp_error *error)
+{
+    const sp_evaluator *fine = reckoning->fine;
+    const sp_search *search = reckoning->search;
+    bool moves = sp_evaluator_setup(fine)->sweep.speed > 0, whole, told = true;
+    if (!sp_attain_by_fields(fine, search, reckoning->scopes, deadline, reasons, &whole, error))
+        return false;
+    /* without the fields it is not known what is dry */
+    if (moves && whole && !sp_moving_goods_reasons(fine, search, deadline, reasons, &told, error))
+        return false;
+    if (!moves && !sp_bounces(fine, search, deadline, reasons, error))
+        return false;
+    if (!whole || !told)
+        sp_deadline_cut(deadline, "attainable");
+    doubt(search, whole, sp_evaluator_patches(fine)->count, reasons);
+    return true;
 }
 
 /* Whether more time might find more: what was asked of the search's patches is as good as these and as what was traced
@@ -257,10 +278,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadlin
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
         done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
-               (deadline->cancelled || (sp_attain_by_fields(fine, search, scopes, deadline, reasons, error) &&
-                                        (moves ? sp_moving_goods_reasons(fine, search, deadline, reasons, error)
-                                               : sp_bounces(fine, search, deadline, reasons, error))));
-        doubt(search, sp_evaluator_patches(fine)->count, reasons);
+               (deadline->cancelled || ask_fields(&reckoning, deadline, reasons, error));
         if (sp_evaluator_counts_thrown_back(fine))
             allow_thrown_back(sp_evaluator_patches(fine)->count, reasons);
         if (is_hurried(fine, search, reasons))

@@ -11,7 +11,8 @@
  * why. A patch of which less than half is reached, its point not, is SP_REASON_NO_LINE; one that the kept nozzles cover
  * half of is attained. Of film, of types that do not spray as densely all over and of goods that move candidate poses
  * are asked as they stand, on the search's patches. Where `fine` counts what walls throw back, all that any liquid
- * gets to is taken to be attainable. Ends early, the rest unknown, where the run is cancelled. */
+ * gets to is taken to be attainable. Ends early, the rest unknown, where the run is cancelled; where a time limit
+ * leaves out candidate poses, what these might bring is unknown, too. */
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error);
 

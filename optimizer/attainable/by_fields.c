@@ -2,10 +2,14 @@
 
 #include "attainable/patch_at.h"
 #include "scoring/mount_capacity.h"
+#include "scoring/strided.h"
 #include "scoring/scoring.h"
 
 #include <omp.h>
 #include <stdlib.h>
+
+/* Of the time left, at most: a first layout takes two to four times as long, so that with less it would be poor. */
+#define SHARE 0.3
 
 /* What is asked of the fields of candidates. */
 typedef enum {
@@ -86,23 +90,28 @@ static void look_at_variant(const running *r, int thread, uint32_t site, uint32_
         }
 }
 
-static void look_at_sites(const running *r, const sp_partial *nothing)
+/* False where there was no time for all of them. */
+static bool look_at_sites(const running *r, const sp_partial *nothing)
 {
     const sp_candidates *candidates = r->search->candidates;
-#pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
-    for (size_t site = 0; site < r->search->sites->count; site++)
+    bool late = !sp_deadline_goes_on(r->deadline, "attainable", 1);
+#pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1) reduction(|| : late)
+    for (size_t i = 0; i < r->search->sites->count; i++)
         for (uint32_t k = 0; k < candidates->variant_count; k++) {
-            int thread = omp_get_thread_num();
-            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->variants[k].launch);
-            /* a time limit does not stop this, as it does not stop the rest of what is attainable */
-            bool stopped = !sp_deadline_goes_on(r->deadline, "attainable", 1) && r->deadline->cancelled,
-                 uniform = sp_type_is_uniform(candidates->variants[k].type);
-            if (stopped || (uniform && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
+            sp_sweeper *sweeper = &r->sweepers[omp_get_thread_num()];
+            uint32_t site = (uint32_t)sp_strided(i, r->search->sites->count);
+            bool uniform = sp_type_is_uniform(candidates->variants[k].type);
+            late = late || !sp_deadline_goes_on(r->deadline, "attainable", 1);
+            if (late || (uniform && r->question == FOOTPRINTS))
                 continue;
-            sp_sweeper_take(&r->sweepers[thread], k);
-            look_at_variant(r, thread, (uint32_t)site, k);
+            sp_sweeper_look(sweeper, r->search, nothing, site, candidates->variants[k].launch);
+            if (uniform && !sweeper->view->start)
+                continue;
+            sp_sweeper_take(sweeper, k);
+            look_at_variant(r, omp_get_thread_num(), site, k);
         }
     sp_sweepers_forget(r->sweepers, r->threads);
+    return !late;
 }
 
 /* Whether all threads' offers suffice for what is asked about i-th. */
@@ -135,7 +144,7 @@ static void note(const running *r, const sp_evaluator *fine, const bool *attaine
     }
 }
 
-static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_error *error)
+static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, bool *whole, sp_error *error)
 {
     const sp_search *search = r->search;
     sp_partial nothing = {0};
@@ -146,7 +155,7 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
         r->sweepers = r->offers ? sp_sweepers_create(search, r->threads, error) : sp_fail_memory(error);
         done = r->sweepers && sp_partial_create(search, &nothing, error);
         if (done)
-            look_at_sites(r, &nothing);
+            *whole &= look_at_sites(r, &nothing);
         for (size_t i = 0; done && i < r->count; i++)
             attained[r->asked[i]] = suffice(r, i);
         if (done)
@@ -161,8 +170,9 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
 }
 
 bool sp_attain_by_fields(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes,
-                         sp_deadline *deadline, sp_reason *reasons, sp_error *error)
+                         sp_deadline *deadline, sp_reason *reasons, bool *whole, sp_error *error)
 {
+    double share = deadline->share;
     running r = {.search = search,
                  .deadline = deadline,
                  .scopes = scopes,
@@ -171,6 +181,10 @@ bool sp_attain_by_fields(const sp_evaluator *fine, const sp_search *search, cons
                  .water_left = search->options->max_water - search->kept_flow};
     running hits = r, film = r;
     hits.question = FOOTPRINTS;
-    return (!search->footprints || ask(fine, &hits, reasons, error)) &&
-           (!search->runoffs || ask(fine, &film, reasons, error));
+    *whole = true;
+    sp_deadline_lend(deadline, SHARE);
+    bool done = (!search->footprints || ask(fine, &hits, reasons, whole, error)) &&
+                (!search->runoffs || ask(fine, &film, reasons, whole, error));
+    sp_deadline_allow(deadline, share);
+    return done;
 }

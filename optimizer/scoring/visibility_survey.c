@@ -1,5 +1,7 @@
 #include "scoring/visibility_work.h"
 
+#include "scoring/strided.h"
+
 #include "ranks/messages.h"
 
 #include <stdlib.h>
@@ -49,22 +51,6 @@ typedef struct {
     sp_error failure;
 } sp_survey;
 
-/* Site `i` of the order in which to trace: strided, so that a run that ends early has seen something of every mount. */
-static size_t strided(size_t i, size_t count)
-{
-    size_t stride = (size_t)(0.6180339887 * (double)count) | 1;
-    for (;; stride += 2) {
-        size_t a = stride, b = count;
-        while (b) {
-            size_t r = a % b;
-            a = b;
-            b = r;
-        }
-        if (a == 1)
-            return i * stride % count;
-    }
-}
-
 static bool pass_on(const sp_error *failure, sp_error *error)
 {
     if (failure->kind == SP_OK)
@@ -111,7 +97,7 @@ static sp_ranks *ranks_of(const sp_survey *survey)
 static size_t view_at(const sp_survey *survey, size_t i)
 {
     size_t launches = survey->visibility->launch_count;
-    return strided(i / launches, survey->visibility->site_count) * launches + i % launches;
+    return sp_strided(i / launches, survey->visibility->site_count) * launches + i % launches;
 }
 
 static bool is_mine(const sp_survey *survey, size_t at)

@@ -34,6 +34,9 @@ static bool first_partial(const sp_finding *finding, double enough, sp_partial *
 {
     double coarse = enough * finding->target;
     sp_front_point point;
+    /* out of time there is what was known before */
+    if (finding->front->best.count && !sp_deadline_goes_on(finding->deadline, "greedy", 0))
+        return true;
     for (int round = 0; round < ROUNDS_MOST; round++) {
         size_t before = partial->count;
         if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->deadline, partial, finding->pool,

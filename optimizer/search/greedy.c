@@ -2,6 +2,7 @@
 
 #include "ranking/ranking.h"
 #include "ranks/messages.h"
+#include "scoring/strided.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -9,6 +10,8 @@
 
 #define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
 #define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
+#define BATCH 16          /* mounting points that each thread scans between two looks at the clock, at most */
+#define BATCH_HURRIED 4   /* the same where time is short */
 
 /* The best pose of one mounting point and variant in this round. */
 typedef struct {
@@ -193,8 +196,36 @@ static bool share_bests(sp_rounds *rounds, sp_error *error)
     return true;
 }
 
+static double highest_merit(const sp_rounds *rounds)
+{
+    size_t count = rounds->search->sites->count * rounds->search->candidates->variant_count;
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, rounds->best[i].merit);
+    return most;
+}
+
+/* Out of time a round ends with what it has come to, but not before there is a nozzle to show. */
+static bool scans_on(const sp_rounds *rounds, const sp_partial *partial, double done, sp_deadline *deadline)
+{
+    if (sp_deadline_goes_on(deadline, "greedy", done))
+        return true;
+    double shown = partial->count ? 1 : highest_merit(rounds);
+    return !deadline->cancelled && sp_ranks_highest(ranks_of(rounds), "shown", &shown, 1, NULL) && !(shown > 0);
+}
+
+/* Mounting points to scan before the next look at the clock, once so many are scanned: where time is out already no
+ * more than all have threads for. */
+static size_t next_batch(const sp_rounds *rounds, size_t scanned)
+{
+    const sp_run *run = &rounds->search->options->run;
+    size_t all = (size_t)rounds->threads * sp_ranks_count(run->ranks);
+    size_t most = (sp_run_hurries(run) ? BATCH_HURRIED : BATCH) * all;
+    return scanned < all ? all : scanned < most ? scanned : most;
+}
+
 /* Each rank scans its own sites, whose rooms it alone knows. */
-static bool scan(sp_rounds *rounds, const sp_partial *partial, sp_error *error)
+static bool scan(sp_rounds *rounds, const sp_partial *partial, double done, sp_deadline *deadline, sp_error *error)
 {
     double least = rounds->started ? round_floor(rounds, partial) : 0;
     if (!sp_ranks_highest(ranks_of(rounds), "floor", &least, 1, error))
@@ -203,10 +234,16 @@ static bool scan(sp_rounds *rounds, const sp_partial *partial, sp_error *error)
     size_t sites = rounds->search->sites->count;
     memset(rounds->best, 0, sites * rounds->search->candidates->variant_count * sizeof *rounds->best);
     int threads = rounds->threads;
+    for (size_t first = 0, end; first < sites && (!first || scans_on(rounds, partial, done, deadline)); first = end) {
+        size_t batch = next_batch(rounds, first);
+        end = first + batch < sites ? first + batch : sites;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < sites; i++)
-        if (sp_ranks_mine(ranks_of(rounds), i))
-            scan_site(rounds, partial, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+        for (size_t i = first; i < end; i++) {
+            size_t site = sp_strided(i, sites);
+            if (sp_ranks_mine(ranks_of(rounds), site))
+                scan_site(rounds, partial, &rounds->sweepers[omp_get_thread_num()], (uint32_t)site, least);
+        }
+    }
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
     return share_bests(rounds, error);
 }
@@ -233,9 +270,7 @@ static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_erro
 static const sp_round_best *round_best(const sp_rounds *rounds)
 {
     size_t count = rounds->search->sites->count * rounds->search->candidates->variant_count;
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, rounds->best[i].merit);
+    double most = highest_merit(rounds);
     for (size_t i = 0; most > 0 && i < count; i++) {
         const sp_round_best *best = &rounds->best[i];
         if (best->merit > 0 &&
@@ -262,7 +297,7 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
             rounds.search = &exact;
             forget_rooms(&rounds);
         }
-        done = scan(&rounds, partial, error);
+        done = scan(&rounds, partial, fmin(1, partial->covered / target), deadline, error);
         const sp_round_best *best = round_best(&rounds);
         if (!done || best->merit <= 0 || best->gain < least)
             break;

@@ -7,7 +7,8 @@
 
 /* Adds nozzles to the partial layout, each the pose of most gain per outlay^power, the first of equals, until it covers
  * `target` (m² of coarse patches) or nothing more is gained or allowed within an outlay of `budget` (m³/s). The poses
- * that came near go to `pool`. */
+ * that came near go to `pool`. Out of time it ends within a round, with the best that this has come to, and with a
+ * first nozzle where there is one. */
 bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
                sp_partial *partial, sp_pool *pool, sp_error *error);
 /* The same over the pool's poses alone. */

@@ -32,7 +32,9 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage, const
     figures->flow = coverage->flow;
     figures->covered_area = coverage->covered_area;
     figures->coverage = coverage->fraction;
-    figures->of_attainable = figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
+    /* of what was not looked into more may be attainable */
+    bool known = figures->attainable_area > 0 && !(figures->missing_area[SP_REASON_UNKNOWN] > 0);
+    figures->of_attainable = known ? coverage->covered_area / figures->attainable_area : NAN;
     figures->area_per_water = coverage->flow > 0 ? coverage->area_per_water : NAN;
     const sp_balance *balance = &coverage->balance;
     figures->error_estimate = coverage->measured.known ? coverage->measured.estimate : NAN;

@@ -87,12 +87,26 @@ static void goods_are_placed_for_whatever_the_threads(void **state)
     json_decref(object);
 }
 
+/* Out of time it is not known what is attainable, and no coverage is told as a share of it. */
+static void what_was_not_looked_into_is_no_measure(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("place belt.yaml --time-limit 0.001 --json", 4),
+           *proposed = layout_named(object, "proposed");
+    assert_true(json_array_size(json_object_get(proposed, "nozzles")) == 1);
+    assert_null(json_object_get(proposed, "coverage_of_attainable"));
+    assert_null(json_object_get(json_object_get(object, "geometry"), "unattainable_m2"));
+    assert_true(number(proposed, "coverage") > 0);
+    json_decref(object);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doses_are_told),
         cmocka_unit_test(what_stands_is_called_a_machine),
         cmocka_unit_test(goods_are_placed_for_whatever_the_threads),
+        cmocka_unit_test(what_was_not_looked_into_is_no_measure),
     };
     return cmocka_run_group_tests(tests, open_belt, close_workplace);
 }

@@ -167,13 +167,37 @@ static void a_cluster_is_traced_where_it_is_known(void **state)
     room_close(&j.room);
 }
 
+static bool count_greedy(void *user, const char *stage, double done)
+{
+    (void)done;
+    *(size_t *)user += !strcmp(stage, "greedy");
+    return true;
+}
+
+/* Out of time nothing is put together for the first time where something is known: it was asked once whether to. */
+static void what_is_known_takes_no_time(void **state)
+{
+    (void)state;
+    size_t calls = 0;
+    job j;
+    open_leaning(&j);
+    const sp_proposal *known = job_place(&j);
+    j.options.run.progress = count_greedy;
+    j.options.run.user = &calls;
+    sp_proposal *hasty = place_knowing(&j, &known, NO_TIME);
+    check_no_worse(hasty, known, 0);
+    assert_int_equal(calls, 1);
+    sp_proposal_destroy(hasty);
+    sp_proposal_destroy((sp_proposal *)known);
+    room_close(&j.room);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_allowed_is_no_worse),
-        cmocka_unit_test(what_is_proved_holds_for_it),
-        cmocka_unit_test(what_is_not_allowed_is_left_out),
-        cmocka_unit_test(a_cluster_is_traced_where_it_is_known),
+        cmocka_unit_test(what_is_allowed_is_no_worse),     cmocka_unit_test(what_is_proved_holds_for_it),
+        cmocka_unit_test(what_is_not_allowed_is_left_out), cmocka_unit_test(a_cluster_is_traced_where_it_is_known),
+        cmocka_unit_test(what_is_known_takes_no_time),
     };
     return cmocka_run_group_tests_name("known layouts", tests, NULL, NULL);
 }
