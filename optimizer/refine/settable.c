@@ -1,9 +1,11 @@
 #include "refine/settable.h"
 
+#include "ranking/ranking.h"
 #include "refine/pose_parameters.h"
 #include "scoring/field.h"
 
 #define ROUNDS 3        /* of looking at the settings beside those of the best layout */
+#define SPARE 5e-3      /* of the target: about as much is lost where a layout is set */
 #define SET_WITHIN 1e-6 /* of a step, for what is at a setting: places are rounded where they are told */
 
 typedef enum { SETTING_DEPTH, SETTING_TILT, SETTING_ANGLE, SETTING_FLOW, SETTINGS } sp_setting;
@@ -278,6 +280,53 @@ static bool has_steps(const sp_place_options *options)
     return any;
 }
 
+static const sp_front_entry *entry_at(const sp_front *front, size_t at)
+{
+    size_t first = front->by_water.count;
+    return at < first ? &front->by_water.entries[at] : &front->by_number.entries[at - first];
+}
+
+/* How late a layout is to be set: where time is short what is proposed will be one of the first. The best, which just
+ * reaches the target, may no longer do so once it is set; what reaches it with something to spare will. */
+static double lateness(const sp_front *front, const sp_front_point *point)
+{
+    if (!sp_front_saves(front))
+        return front->measured.area - point->area;
+    if (point->area >= front->target)
+        return fabs(point->area - (1 + SPARE) * front->target);
+    return sp_evaluator_patches(front->fine)->total_area + front->target - point->area;
+}
+
+/* Layouts of both fronts that are not set, besides the best; malloc'd, NULL when memory runs out. */
+static sp_ranked *rank_unset(const sp_search *search, const sp_front *front, size_t *count)
+{
+    size_t all = front->by_water.count + front->by_number.count;
+    sp_ranked *ranked = malloc((all + 1) * sizeof *ranked);
+    *count = 0;
+    for (size_t at = 0; ranked && at < all; at++) {
+        const sp_front_entry *entry = entry_at(front, at);
+        bool best = entry->point.outlay == front->measured.outlay && entry->point.area == front->measured.area;
+        if (!best && !all_set(search, &entry->partial))
+            ranked[(*count)++] = (sp_ranked){lateness(front, &entry->point), at};
+    }
+    if (ranked)
+        sp_rank_rising(ranked, *count);
+    return ranked;
+}
+
+/* As far as time goes, the best in any case. */
+static bool set_unset(const sp_search *search, const sp_front *before, sp_deadline *deadline, sp_front *front,
+                      sp_error *error)
+{
+    size_t count;
+    sp_ranked *ranked = rank_unset(search, before, &count);
+    bool done = ranked ? set_partials(search, &before->best, front, error) : sp_fail_memory(error) != NULL;
+    for (size_t i = 0; done && i < count && sp_deadline_goes_on(deadline, "refine", 1); i++)
+        done = set_partials(search, &entry_at(before, ranked[i].at)->partial, front, error);
+    free(ranked);
+    return done;
+}
+
 bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     if (!has_steps(search->options))
@@ -285,14 +334,8 @@ bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *fron
     sp_front before = *front;
     *front = sp_front_anew(&before);
     forget_unset(search, &front->counted);
-    const sp_front_list *lists[] = {&before.by_water, &before.by_number};
-    bool done = keep_set(search, lists[0], front, error) && keep_set(search, lists[1], front, error) &&
-                set_partials(search, &before.best, front, error);
-    /* what takes most water is nearest to the best, and comes first where time is short */
-    for (int k = 0; k < 2; k++)
-        for (size_t i = lists[k]->count; done && i-- > 0 && sp_deadline_goes_on(deadline, "refine", 1);)
-            done = all_set(search, &lists[k]->entries[i].partial) ||
-                   set_partials(search, &lists[k]->entries[i].partial, front, error);
+    bool done = keep_set(search, &before.by_water, front, error) && keep_set(search, &before.by_number, front, error) &&
+                set_unset(search, &before, deadline, front, error);
     sp_front_free(&before);
     return done && look_beside(search, deadline, front, error);
 }

@@ -1,5 +1,8 @@
 /* What is proposed can be set, and what is said of it is of just that. */
-#include "room.h"
+#include "prepared.h"
+
+#include "refine/settable.h"
+#include "scoring/field.h"
 
 #define MILLIMETRE 1e-3
 #define BAR 1e5
@@ -178,6 +181,70 @@ static void what_stands_at_settings_is_kept_when_cut_short(void **state)
     room_close(&j.room);
 }
 
+static bool stop_after_one(void *user, const char *stage, double done)
+{
+    (void)stage, (void)done;
+    size_t *calls = user;
+    return ++*calls < 2;
+}
+
+/* A nozzle of one place with each of these flows, into the front; the first just reaches the target. */
+static void note_flows(const prepared *ready, const double *flows, size_t count, sp_front *front)
+{
+    sp_error error = {0};
+    for (size_t i = 0; i < count; i++) {
+        sp_partial partial;
+        sp_front_point point;
+        assert_true(sp_partial_create(&ready->search, &partial, &error));
+        assert_true(sp_partial_add_pose(&ready->search, &partial, (sp_pose){0}, &error));
+        sp_placed *placed = &partial.items[0];
+        placed->nozzle.flow = placed->flow = flows[i] * LITRES_PER_MINUTE;
+        assert_true(sp_field_nozzle(&ready->search, &placed->nozzle, NULL, placed->field, &error));
+        sp_partial_refresh(&ready->search, &partial);
+        assert_true(sp_front_measure(front, &ready->search, &partial, &point, &error));
+        if (i == 0)
+            assert_true(sp_front_aim(front, &ready->search, point.area, &error));
+        sp_partial_free(&partial);
+    }
+}
+
+/* There is time to set one layout besides the best: of those that reach the target the one that has little to spare,
+ * where as much as possible is to be covered that of most besides. */
+static void what_may_be_proposed_is_set_first(void **state)
+{
+    (void)state;
+    const double flows[] = {15.5, 18, 22, 28.3};
+    for (int most = 0; most < 2; most++) {
+        job j;
+        prepared ready;
+        sp_error error = {0};
+        size_t calls = 0;
+        bool found = false;
+        job_open(&j);
+        give_steps(&j);
+        j.options.objective = most ? SP_OBJECTIVE_MAX_COVERAGE : SP_OBJECTIVE_MIN_WATER;
+        prepare(&ready, j.room.evaluator, &j.options);
+        sp_deadline deadline = sp_deadline_start(&(sp_run){.progress = stop_after_one, .user = &calls});
+        sp_front front = {
+            .fine = j.room.evaluator, .deadline = &deadline, .objective = j.options.objective, .target = 1e3};
+        note_flows(&ready, flows, 4, &front);
+        assert_int_equal(front.by_water.count, 4);
+        assert_true(sp_set_front(&ready.search, &deadline, &front, &error));
+        /* the best and one more, each with flows to either side */
+        const double best = flows[most ? 3 : 0], next = flows[most ? 2 : 1];
+        for (size_t i = 0; i < front.by_water.count; i++) {
+            double flow = front.by_water.entries[i].point.flow / LITRES_PER_MINUTE;
+            assert_true(fabs(flow - best) < 0.7 || fabs(flow - next) < 0.7);
+            found |= fabs(flow - next) < 0.7;
+        }
+        assert_true(found);
+        sp_front_free(&front);
+        free(deadline.stages);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
 /* Flows are not turned up beyond the water that may be taken. */
 static void settings_keep_to_the_water(void **state)
 {
@@ -293,6 +360,7 @@ int main(void)
         cmocka_unit_test(settings_are_short_numbers),
         cmocka_unit_test(what_is_proposed_can_be_set),
         cmocka_unit_test(what_stands_at_settings_is_kept_when_cut_short),
+        cmocka_unit_test(what_may_be_proposed_is_set_first),
         cmocka_unit_test(settings_keep_to_the_water),
         cmocka_unit_test(bodies_pass_the_bore),
         cmocka_unit_test(mounts_are_recognised),
