@@ -312,7 +312,9 @@ void sp_page_alternatives(const sp_page *page, sp_text *text)
     add_table(page, text);
     sp_text_add(text,
                 "<p class=\"note\">A new fitting is a place of a nozzle that is not a port and is not kept from "
-                "the layout there is: a weld, or a place on a pipe. What was found need not be the best%s.</p>\n",
+                "the layout there is: a weld, or a place on a pipe. Alternatives that allow less are searched first; "
+                "what is found after that is not handed back to them, so that they may do better than is told of "
+                "them. What was found need not be the best%s.</p>\n",
                 sp_page_proves(page) ? ": the <a href=\"#front\">chart</a> and the <a href=\"#certificate\">bounds</a> "
                                        "tell how much better each could be"
                                      : "");
