@@ -250,7 +250,7 @@ SP_API bool sp_place_count_points(const sp_evaluator *evaluator, const sp_place_
  * pressure is given, no mounting point is inside and clear, or a kept nozzle is in a wall, outside, or in a port that
  * it does not pass. Clusters, and types that do not spray as densely all over, stay at the poses of candidates:
  * refinement moves the others about them; in the end each nozzle is tried as every other type and pressure that its
- * mount allows, where it stands, of those that take no more. */
+ * mount allows, where it stands, of those that take no more or may be set to no more. */
 SP_API sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 SP_API void sp_proposal_destroy(sp_proposal *proposal);
 

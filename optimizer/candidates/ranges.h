@@ -14,6 +14,9 @@ double sp_fed_pressure(const sp_nozzle_type *type, double pressure);
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
 void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high);
+/* The most of that, m³/s, that is no more than `most`; 0 where there is none. */
+double sp_flow_within(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type,
+                      double pressure, double most);
 /* m that refinement may move a nozzle from where it was mounted, along each direction that the mount has; along a
  * surface in all. */
 double sp_move_limit(const sp_place_options *options, const sp_mount *mount);

@@ -4,14 +4,16 @@
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 
-static sp_nozzle as_variant(const sp_nozzle *nozzle, const sp_variant *variant)
+/* Fed with that flow, m³/s. */
+static sp_nozzle as_variant(const sp_nozzle *nozzle, const sp_variant *variant, double flow)
 {
     return (sp_nozzle){.type = variant->type,
                        .position = nozzle->position,
                        .axis = nozzle->axis,
                        .roll = nozzle->roll,
                        .pressure = variant->pressure,
-                       .angle = variant->angle == variant->type->angle ? 0 : variant->angle};
+                       .angle = variant->angle == variant->type->angle ? 0 : variant->angle,
+                       .flow = flow == variant->flow ? 0 : flow};
 }
 
 /* Of what no sweep knows a footprint of its own: no candidate need stand where it does. */
@@ -33,16 +35,17 @@ static bool may_count(const sp_front *front, const sp_partial *partial)
     return partial->covered + front->bias >= least * (1 - SP_MISJUDGED);
 }
 
-/* The best layout with nozzle i as that variant, into the front. */
-static bool measure_as(const sp_search *search, sp_front *front, size_t i, const sp_variant *variant, sp_error *error)
+/* The best layout with another nozzle in place of nozzle i, into the front. */
+static bool measure_with(const sp_search *search, sp_front *front, size_t i, const sp_nozzle *nozzle, double flow,
+                         sp_error *error)
 {
     sp_front_point point = {.area = -1};
     sp_partial partial;
     if (!sp_partial_copy(search, &front->best, &partial, error))
         return false;
     sp_placed *placed = &partial.items[i];
-    placed->nozzle = as_variant(&placed->nozzle, variant);
-    placed->flow = variant->flow;
+    placed->nozzle = *nozzle;
+    placed->flow = flow;
     bool done = look(search, placed, error);
     if (done)
         sp_partial_refresh(search, &partial);
@@ -51,19 +54,33 @@ static bool measure_as(const sp_search *search, sp_front *front, size_t i, const
     return done;
 }
 
-static bool try_variant(const sp_search *search, sp_front *front, size_t i, size_t k, sp_error *error)
+static bool try_flow(const sp_search *search, sp_front *front, size_t i, const sp_variant *variant, double flow,
+                     sp_error *error)
 {
-    const sp_variant *variant = &search->candidates->variants[k];
     const sp_placed *placed = &front->best.items[i];
-    sp_nozzle nozzle = as_variant(&placed->nozzle, variant);
+    sp_nozzle nozzle = as_variant(&placed->nozzle, variant, flow);
     sp_error refused = {0};
-    if (!sp_candidates_axes(search->candidates, placed->site.mount, k)->count ||
-        variant->flow > placed->flow * (1 + SP_ROUNDING) || sp_nozzles_spray_alike(&nozzle, &placed->nozzle))
+    if (sp_nozzles_spray_alike(&nozzle, &placed->nozzle))
         return true;
     /* a hole may stick in a wall where the other type's did not */
     if (!sp_evaluator_admits(search->coarse, &nozzle, &refused))
         return refused.kind != SP_ERROR_MEMORY || sp_fail_memory(error);
-    return measure_as(search, front, i, variant, error);
+    return measure_with(search, front, i, &nozzle, flow, error);
+}
+
+/* With the flow that it is rated for, and with as much as it may be set to of what the nozzle takes. */
+static bool try_variant(const sp_search *search, sp_front *front, size_t i, size_t k, sp_error *error)
+{
+    const sp_variant *variant = &search->candidates->variants[k];
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    double most = front->best.items[i].flow;
+    double within = sp_flow_within(search->options, setup, variant->type, variant->pressure, most);
+    if (!sp_candidates_axes(search->candidates, front->best.items[i].site.mount, k)->count)
+        return true;
+    if (variant->flow <= most * (1 + SP_ROUNDING) && !try_flow(search, front, i, variant, variant->flow, error))
+        return false;
+    return !(within > 0) || fabs(within - variant->flow) <= SP_ROUNDING * within ||
+           try_flow(search, front, i, variant, within, error);
 }
 
 bool sp_try_other_types(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
