@@ -110,8 +110,8 @@ SP_API sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, c
                                  sp_error *error);
 /* The atlas that an OBJ file already holds as texture coordinates, `mesh` being what sp_mesh_load made of that file.
  * The coordinates are in units of a page's edge, the pages named by usemtl page_0, ...; they are kept as they are.
- * `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Where charts have no pixel
- * between them on longer ones than that, texels half as long are tried until they have, down to that. Fails with
+ * `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Where charts have no
+ * pixel between them on longer ones than that, texels half as long are tried until they have, down to that. Fails with
  * SP_ERROR_INPUT, at the face's line, for what breaks what every atlas keeps: corners without coordinates or off the
  * page, triangles that are turned over, overlaps, lengths (more than 5 % of the area strained by more than 5 %), charts
  * without a pixel between them. */
