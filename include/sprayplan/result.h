@@ -229,11 +229,6 @@ SP_API bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double 
 /* Whether the proposal is more nozzles, or takes more water, than these limits allow: the nozzles to keep are. */
 SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
 
-/* What no layout of the certificate's covers more than, as a fraction of the surface, from its bound `area`: what is
- * attainable, if that is less and was not looked into in a hurry, in which case *attainable is true; but never less
- * than `found`, the fraction that one covers. */
-SP_API double sp_told_bound(const sp_proposal *proposal, double area, double found, bool *attainable);
-
 /* Where the scene's own nozzles ("manual"), within the limits, are better than the proposal by its objective, that they
  * are and why, as a sentence of plain text; "" elsewhere. `figures` are all designs'. */
 #define SP_OWN_TEXT 160

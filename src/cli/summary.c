@@ -248,20 +248,17 @@ static void print_least_water(const sp_proposal *proposal, double flow)
     printf("%.*f L/min%s", sp_water_decimals(least), least, proposal->costly ? " of water and cost of mounts" : "");
 }
 
-/* A share of 100 %, or of all that is attainable, would say nothing. */
+/* A share of 100 % would say nothing. */
 static void print_every_aim(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
-    bool attainable;
-    double counted = certificate->counted / certificate->whole,
-           told = sp_told_bound(proposal, certificate->every_aim.area_bound, counted, &attainable),
-           percent = ceil(1e3 * told - 1e-9) / 10;
+    double percent = ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10;
     bool one = certificate->every_aim.places == 1;
     printf("Whichever way nozzles at %s %zu mounting point%s are aimed, at any roll, angle and flow allowed: none "
            "reaches it with less\nthan ",
            one ? "this" : "these", certificate->every_aim.places, one ? "" : "s");
     print_least_water(proposal, certificate->every_aim.water_bound);
-    if (!attainable && percent < 100)
+    if (percent < 100)
         printf(", and %s none covers more than %.1f %%",
                proposal->costly ? "for the proposal's price" : "with the proposal's water", percent);
     printf(". Places between are not covered.\n");
@@ -275,19 +272,18 @@ static void print_certificate(const sp_proposal *proposal)
             printf("\nThe search ended before anything was proved of how much better a layout could be.\n");
         return;
     }
-    bool one = certificate->candidates == 1, attainable;
-    double counted = certificate->counted / certificate->whole,
-           told = sp_told_bound(proposal, certificate->area_bound, counted, &attainable);
+    bool one = certificate->candidates == 1;
     printf("\nAmong %s %zu candidate pose%s ", one ? "this" : "these", certificate->candidates, one ? "" : "s");
     if (certificate->candidates < proposal->candidates)
         printf("(of %zu; the others are in ports that kept nozzles hold, or were not traced in time) ",
                proposal->candidates);
     printf("and the proposal's own, on %zu texels, no layout reaches %.1f %% with less than ", certificate->texels,
-           ceil(1e3 * counted - 1e-9) / 10);
+           ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10);
     print_least_water(proposal, certificate->water_bound);
-    printf(".\n%s none covers more than %.1f %% of them%s (gap %.1f %%). Poses between candidates are not covered.\n",
-           proposal->costly ? "For the proposal's price" : "With the proposal's water", ceil(1e3 * told - 1e-9) / 10,
-           attainable ? ", all that is attainable" : "", ceil(told > 0 ? 1e3 * (1 - counted / told) - 1e-9 : 0) / 10);
+    printf(".\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses between candidates are not covered.\n",
+           proposal->costly ? "For the proposal's price" : "With the proposal's water",
+           ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10,
+           ceil(1e3 * certificate->gap - 1e-9) / 10);
     if (certificate->every_aim.computed)
         print_every_aim(proposal);
 }

@@ -30,12 +30,10 @@ static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
                 only ? " id=\"every-aim\"" : "", found->every_aim.places, found->every_aim.places == 1 ? "" : "s");
     add_least_water(text, found->every_aim.water_bound);
     sp_text_add(text, "&nbsp;L/min%s", proposal->costly ? of_both : "");
-    bool attainable;
-    double told = sp_told_bound(proposal, found->every_aim.area_bound, found->counted / found->whole, &attainable);
-    if (!attainable && ceil(1e3 * told - 1e-9) < 1e3) { /* else it says nothing of its own */
+    if (ceil(1e3 * found->every_aim.area_bound / found->whole - 1e-9) < 1e3) { /* else it says nothing */
         sp_text_add(text, ", and with the proposal&#39;s %s none reaches more than ",
                     proposal->costly ? "price" : "water");
-        add_percent(text, told, true);
+        add_percent(text, found->every_aim.area_bound / found->whole, true);
     }
     sp_text_add(text, ". Places between the mounting points are not covered.</p>\n");
 }
@@ -64,12 +62,9 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool thrown_ba
     sp_markup_water(text, 6e4 * proposal->outlay);
     sp_text_add(text, "&nbsp;L/min%s. %s no layout reaches more than ", proposal->costly ? of_both : "",
                 proposal->costly ? "For the same price" : "With as much water");
-    bool attainable;
-    double counted = found->counted / found->whole,
-           told = sp_told_bound(proposal, found->area_bound, counted, &attainable);
-    add_percent(text, told, true);
-    sp_text_add(text, "%s: at most ", attainable ? ", all that is attainable" : "");
-    add_percent(text, told > 0 ? 1 - counted / told : 0, true);
+    add_percent(text, found->area_bound / found->whole, true);
+    sp_text_add(text, ": at most ");
+    add_percent(text, found->gap, true);
     sp_text_add(text, " of what is possible is left.%s</p>\n",
                 found->every_layout ? " Every layout of the candidates was looked at." : "");
     add_every_aim(proposal, text, only);

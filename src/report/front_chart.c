@@ -154,9 +154,7 @@ static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t 
     add_stroke(page, text, design);
     sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
-        bool attainable;
-        double found = proposal->front[i].area / page->figures[design].clean_area,
-               y = y_of(a, 100 * sp_told_bound(proposal, proposal->front[i].bound, found, &attainable));
+        double y = y_of(a, fmin(100, 100 * proposal->front[i].bound / proposal->certificate.whole));
         if (i == 0)
             sp_text_add(text, "M%d %.1f", LEFT, y);
         sp_text_add(text, "V%.1fH%.1f", y, x_of(a, 6e4 * proposal->front[i].outlay));
@@ -281,7 +279,7 @@ static void add_note(const sp_page *page, sp_text *text)
                 page->costly ? "for as low a price" : "with as little water");
     if (lines.bounds > 0)
         sp_text_add(text, "The dashed line is what no layout of the candidates exceeds, up to the last dot, counted on "
-                          "the texels of the certificate below; it lies no higher than what is attainable.");
+                          "the texels of the certificate below.");
     else
         sp_text_add(text, "How far the best possible may lie above is not known.");
     if (page->alternatives)
