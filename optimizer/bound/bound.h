@@ -8,9 +8,9 @@
 /* All candidates, however they are kept. */
 typedef struct {
     void *user;
-    /* Adds every candidate's total price at multipliers u to `offers`, or something no lower, but for those that raise
-     * no value of a knapsack of the others. Appends to `rows` some of those worth more than needed[tier] that are not
-     * among them yet (by key). Without `all` it may look at some only, and offer nothing. */
+    /* Adds every candidate's total price at multipliers u to `offers`, or something no lower. Appends to `rows` some
+     * of those worth more than needed[tier] that are not among them yet (by key). Without `all` it may look at some
+     * only, and offer nothing. */
     bool (*price)(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
                   sp_error *error);
 } sp_pricer;

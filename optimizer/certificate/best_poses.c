@@ -21,14 +21,14 @@ typedef struct {
     size_t stride; /* every so many poses; 0: those alone that were the best before */
 } pricing_round;
 
-/* What a site's pose of a variant must be worth to matter: more than the port has on offer, and than leaves a knapsack
- * of what is known as it is; or than is needed. */
-static double least_of(const sp_pose_pricing *pricing, size_t port, size_t tier, const pricing_round *round)
+/* What a site's pose of a variant must be worth to matter: more than its port has on offer of its tier, or than is
+ * needed. Less could raise the value of no knapsack whatever else is offered later: the other would do in its place. */
+static double least_of(const pricing_round *round, size_t port, size_t tier)
 {
     const sp_offers *offers = round->offers;
     double offered =
         port == SP_NO_PORT ? offers->free[tier * offers->most] : offers->port[port * offers->tier_count + tier];
-    return fmin(fmax(offered, pricing->idle[tier]), round->needed[tier]);
+    return fmin(offered, round->needed[tier]);
 }
 
 /* Prices all poses of a variant at a site, or every `stride`th, another one at the next site. The highest price, where
@@ -86,8 +86,8 @@ static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t 
             found->pose = (sp_pose){.site = site, .variant = k};
         if (round->stride) {
             uint32_t tier = sp_pose_tier(pricing, site, k);
-            price_variant(pricing, own, view, &region, round->stride, least_of(pricing, port, tier, round),
-                          round->needed[tier], found);
+            price_variant(pricing, own, view, &region, round->stride, least_of(round, port, tier), round->needed[tier],
+                          found);
         } else {
             found->price = sp_pose_price(pricing, own, view, found->pose, &region, 0);
         }
@@ -150,15 +150,8 @@ static void offer_bests(const sp_pose_pricing *pricing, sp_offers *offers)
                           pricing->bests[i].price);
 }
 
-/* What was best by the last multipliers is good by these: most others are seen to be worth less without a sum. */
-static void find_idle(sp_pose_pricing *pricing, sp_offers *offers)
-{
-    offer_bests(pricing, offers);
-    sp_knapsack_fill(&pricing->knapsack, offers, pricing->cover->water);
-    for (size_t k = 0; k < pricing->cover->tier_count; k++)
-        pricing->idle[k] = sp_knapsack_idle(&pricing->knapsack, pricing->cover->weight[k]);
-}
-
+/* What was best by the last multipliers is good by these, and is priced first: most others are seen to be worth less
+ * without a sum. */
 static bool price_poses(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
                         sp_rows *rows, sp_error *error)
 {
@@ -170,7 +163,7 @@ static bool price_poses(void *user, const sp_multipliers *u, const double *neede
         return false;
     if (!sp_cover_goes_on(pricing->cover))
         return true;
-    find_idle(pricing, offers);
+    offer_bests(pricing, offers);
     round.stride = all ? 1 : STRIDE;
     if (!price_sites(pricing, &round, all ? pricing->last : NULL, error))
         return false;
@@ -180,14 +173,9 @@ static bool price_poses(void *user, const sp_multipliers *u, const double *neede
     return hand_out(pricing, needed, rows, error);
 }
 
-bool sp_best_poses(sp_pose_pricing *pricing, sp_pricer *pricer, sp_error *error)
+sp_pricer sp_best_poses(sp_pose_pricing *pricing)
 {
-    const sp_cover *cover = pricing->cover;
-    *pricer = (sp_pricer){pricing, price_poses};
-    pricing->idle = malloc((cover->tier_count + 1) * sizeof *pricing->idle);
-    if (!pricing->idle)
-        return sp_fail_memory(error);
-    return sp_knapsack_create(cover->nozzles, cover->water, &pricing->knapsack, error);
+    return (sp_pricer){pricing, price_poses};
 }
 
 const float *sp_pose_pricing_last(const sp_pose_pricing *pricing)

@@ -4,8 +4,8 @@
 
 #include "certificate/pose_pricing.h"
 
-/* Goes after the list: the keys of rows are its positions. The cover has all its tiers by now. */
-bool sp_best_poses(sp_pose_pricing *pricing, sp_pricer *pricer, sp_error *error);
+/* Goes after the list: the keys of rows are its positions. */
+sp_pricer sp_best_poses(sp_pose_pricing *pricing);
 /* What the pricer found everything to be worth when it last priced all, by position of the list, rounded upwards: a
  * little, or by more where it is far from what it must be to raise the bound. */
 const float *sp_pose_pricing_last(const sp_pose_pricing *pricing);

@@ -71,8 +71,6 @@ void sp_pose_pricing_destroy(sp_pose_pricing *pricing)
     }
     free(pricing->bests);
     free(pricing->last);
-    free(pricing->idle);
-    sp_knapsack_free(&pricing->knapsack);
     free(pricing->scratches);
     free(pricing);
 }

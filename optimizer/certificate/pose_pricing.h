@@ -5,7 +5,6 @@
 #define OPTIMIZER_POSE_PRICING_H
 
 #include "bound/bound.h"
-#include "bound/knapsack.h"
 #include "certificate/pose_order.h"
 #include "scoring/partial.h"
 #include "scoring/scoring.h"
@@ -49,8 +48,6 @@ typedef struct {
     const sp_pose_order *order; /* NULL until a list is asked for */
     float *last;                /* [order->list.count], see sp_pose_pricing_last */
     sp_pose_best *bests;        /* [sites x variants], by the last multipliers */
-    sp_knapsack knapsack;       /* of what is known to be on offer */
-    double *idle;               /* [tiers], see sp_knapsack_idle */
     int threads;
     sp_pose_scratch *scratches; /* [threads] */
     float upwards;              /* more than a share may lie off */

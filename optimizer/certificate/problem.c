@@ -225,9 +225,10 @@ static bool prepare(sp_problem *p, sp_error *error)
     p->pricing = sp_pose_pricing_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
     if (!p->pricing)
         return false;
+    p->pricer = sp_best_poses(p->pricing);
     return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
-           sp_pose_list(p->pricing, &p->order, &p->list, error) && sp_best_poses(p->pricing, &p->pricer, error);
+           sp_pose_list(p->pricing, &p->order, &p->list, error);
 }
 
 bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,

@@ -12,6 +12,7 @@
 #define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
 #define BATCH 16          /* mounting points that each thread scans between two looks at the clock, at most */
 #define BATCH_HURRIED 4   /* the same where time is short */
+#define RANK_THREADS 16   /* that a rank is taken to have */
 
 /* The best pose of one mounting point and variant in this round. */
 typedef struct {
@@ -219,7 +220,9 @@ static bool scans_on(const sp_rounds *rounds, const sp_partial *partial, double 
 static size_t next_batch(const sp_rounds *rounds, size_t scanned)
 {
     const sp_run *run = &rounds->search->options->run;
-    size_t all = (size_t)rounds->threads * sp_ranks_count(run->ranks);
+    size_t ranks = sp_ranks_count(run->ranks);
+    /* ranks look at the clock together, whatever number of threads each of them has */
+    size_t all = ranks > 1 ? RANK_THREADS * ranks : (size_t)rounds->threads;
     size_t most = (sp_run_hurries(run) ? BATCH_HURRIED : BATCH) * all;
     return scanned < all ? all : scanned < most ? scanned : most;
 }

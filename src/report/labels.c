@@ -133,14 +133,15 @@ static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const 
     double at[2] = {0, 0};
     sp_text_add(&name, "%s", whole ? whole : "");
     text->failed |= !whole || name.failed;
-    free(whole);
     if (text->failed) {
+        free(whole);
         free(name.text);
         return;
     }
     shorten(&name, labels->width);
     bool named = place_name(labels, text, name.text, dot, at);
-    add_dot(text, dot, name.text, named);
+    add_dot(text, dot, whole, named);
+    free(whole);
     if (named) {
         sp_text_add(text, "<text class=\"name\" x=\"%.1f\" y=\"%.1f\">", at[0] + HALO, at[1]);
         sp_markup_escape(text, name.text);

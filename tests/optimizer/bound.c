@@ -339,86 +339,13 @@ static void the_knapsack_is_the_best_choice(void **state)
     }
 }
 
-/* Ports besides those of `from`, at each of which tier k is worth `price[k]`. */
-static void add_ports(const sp_offers *from, size_t more, const double price[4], sp_offers *offers)
-{
-    sp_error error = {0};
-    assert_true(sp_offers_create(4, from->weight, from->port_count + more, from->most, from->repeats, offers, &error));
-    memcpy(offers->free, from->free, 4 * from->most * sizeof *from->free);
-    memcpy(offers->port, from->port, 4 * from->port_count * sizeof *from->port);
-    for (size_t p = from->port_count; p < offers->port_count; p++)
-        for (size_t k = 0; k < 4; k++)
-            sp_offers_add(offers, p, k, price[k]);
-}
-
-/* By how much further ports raise what they raise most, as a share. */
-static double raise(const sp_offers *from, size_t more, const double price[4], size_t nozzles)
-{
-    sp_error error = {0};
-    sp_offers offers;
-    sp_knapsack before, after;
-    double most = 0;
-    add_ports(from, more, price, &offers);
-    assert_true(sp_knapsack_create(nozzles, 18, &before, &error) && sp_knapsack_create(nozzles, 18, &after, &error));
-    sp_knapsack_fill(&before, from, 18);
-    sp_knapsack_fill(&after, &offers, 18);
-    for (size_t n = 1; n <= nozzles; n++)
-        for (size_t w = 1; w <= 18; w++) {
-            double value = sp_knapsack_value(&before, n, w);
-            if (value > 0)
-                most = fmax(most, sp_knapsack_value(&after, n, w) / value - 1);
-            else if (sp_knapsack_value(&after, n, w) > 0)
-                most = INFINITY;
-        }
-    sp_knapsack_free(&before);
-    sp_knapsack_free(&after);
-    sp_offers_free(&offers);
-    return most;
-}
-
-/* Any number of nozzles that are worth no more leave all values as they are; one worth a little more raises one. */
-static void idle_nozzles_raise_no_value(void **state)
-{
-    (void)state;
-    uint64_t seed = 815;
-    const uint32_t weight[4] = {2, 3, 5, 7};
-    size_t above = 0;
-    for (int i = 0; i < 60; i++) {
-        size_t nozzles = i % 3 ? 4 : SP_KNAPSACK_COUNTED + 1;
-        sp_error error = {0};
-        sp_offers offers;
-        sp_knapsack knapsack;
-        double idle[4];
-        assert_true(sp_offers_create(4, weight, 6, 4, i % 2, &offers, &error));
-        for (int k = 0; k < 40; k++)
-            sp_offers_add(&offers, k % 8 ? (size_t)(6 * instance_random(&seed)) : SIZE_MAX,
-                          (size_t)(4 * instance_random(&seed)), instance_random(&seed));
-        assert_true(sp_knapsack_create(nozzles, 18, &knapsack, &error));
-        sp_knapsack_fill(&knapsack, &offers, 18);
-        assert_true(isinf(sp_knapsack_idle(&knapsack, 19)));
-        for (size_t k = 0; k < 4; k++)
-            idle[k] = sp_knapsack_idle(&knapsack, weight[k]);
-        assert_true(raise(&offers, 3, idle, nozzles) <= 1e-9);
-        for (size_t k = 0; k < 4; k++) {
-            double more[4] = {0};
-            more[k] = idle[k] + 1e-3;
-            above += idle[k] > 0;
-            assert_true(raise(&offers, 1, more, nozzles) > 1e-6);
-        }
-        sp_knapsack_free(&knapsack);
-        sp_offers_free(&offers);
-    }
-    assert_true(above > 60);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(idle_nozzles_raise_no_value),  cmocka_unit_test(the_knapsack_is_the_best_choice),
-        cmocka_unit_test(never_below_the_optimum),      cmocka_unit_test(more_nozzles_than_are_counted),
-        cmocka_unit_test(groups_of_texels_lead_as_far), cmocka_unit_test(breaking_off_proves_nothing_false),
-        cmocka_unit_test(tight_where_nothing_overlaps), cmocka_unit_test(hundreds_of_rows_may_come_first),
-        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(the_knapsack_is_the_best_choice),   cmocka_unit_test(never_below_the_optimum),
+        cmocka_unit_test(more_nozzles_than_are_counted),     cmocka_unit_test(groups_of_texels_lead_as_far),
+        cmocka_unit_test(breaking_off_proves_nothing_false), cmocka_unit_test(tight_where_nothing_overlaps),
+        cmocka_unit_test(hundreds_of_rows_may_come_first),   cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -333,8 +333,7 @@ static void check_prices(stage *s)
     sp_rows rows = {0};
     double prices = 0, worths = 0;
     assert_true(sp_offers_create(1, s->weight, 1, 3, true, &offers, &error));
-    sp_pricer pricer;
-    assert_true(sp_best_poses(s->poses, &pricer, &error));
+    sp_pricer pricer = sp_best_poses(s->poses);
     assert_true(pricer.price(pricer.user, &s->multipliers, needed, true, &offers, &rows, &error));
     const float *last = sp_pose_pricing_last(s->poses);
     size_t stride = 1 + s->order.list.count / POSES;
