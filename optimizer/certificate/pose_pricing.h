@@ -47,7 +47,7 @@ typedef struct {
     const size_t *ports;
     const sp_pose_order *order; /* NULL until a list is asked for */
     float *last;                /* [order->list.count], see sp_pose_pricing_last */
-    sp_pose_best *bests;        /* [sites x variants], by the last multipliers */
+    sp_pose_best *bests;        /* [sites x variants] */
     int threads;
     sp_pose_scratch *scratches; /* [threads] */
     float upwards;              /* more than a share may lie off */
