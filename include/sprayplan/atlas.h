@@ -52,7 +52,7 @@ typedef struct {
     uint32_t texel; /* to which this triangle belongs there */
 } sp_shared_pixel;
 
-/* Two texels that touch across a cut. */
+/* Two texels that touch across a cut; those of one pixel that a crease parts are none. */
 typedef struct {
     uint32_t texel, other;
     uint32_t edge, across; /* the edge of the mesh along which they do most, as half-edge of either's side:

@@ -10,7 +10,8 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define CHUNK 256 /* patches a thread does in a row: neighbours are reached from the same sites */
+#define CHUNK 256          /* patches a thread does in a row: neighbours are reached from the same sites */
+#define BATCH (64 * CHUNK) /* between two looks at the clock, which all ranks take whatever threads each has */
 
 typedef struct {
     const sp_evaluator *fine;
@@ -171,12 +172,11 @@ static bool reckon(const sp_reckoning *reckoning, sp_deadline *deadline, sp_reas
     sp_offer *offers = malloc((size_t)threads * 2 * places * sizeof *offers);
     if (!offers)
         return sp_fail_memory(error);
-    size_t batch = (size_t)threads * 16 * CHUNK;
-    for (size_t first = 0; first < patches; first += batch) {
+    for (size_t first = 0; first < patches; first += BATCH) {
         /* a time limit does not stop this: without the target the search would not know when to end */
         if (!sp_deadline_goes_on(deadline, "attainable", (double)first / (double)patches) && deadline->cancelled)
             break;
-        size_t end = first + batch < patches ? first + batch : patches;
+        size_t end = first + BATCH < patches ? first + BATCH : patches;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t chunk = first; chunk < end; chunk += CHUNK) {
             sp_offer *mine = &offers[(size_t)omp_get_thread_num() * 2 * places];

@@ -60,8 +60,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                    "sprayplan bench vessel.obj --unit mm --mode cone", 1, 1},
     [CLI_HELP] = {"help", "[COMMAND|TOPIC]", "what a command does, or what the keys of a file mean",
                   "Of a command prints the same as COMMAND --help; of a topic (scene, catalogue, result, files, "
-                  "outputs) every key, "
-                  "what it may be, what is so without it and what it means; without either, what there is.",
+                  "outputs) every key, what it may be, what is so without it and what it means; without either, what "
+                  "there is.",
                   "sprayplan help scene", 0, 1},
 };
 
