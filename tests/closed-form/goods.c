@@ -383,7 +383,8 @@ static sp_coverage *cover_block(int first, double texel)
     sp_nozzle_type thin = fan(60, 6);
     sp_nozzle above = across(&thin, sp_v(0.03, 0.05, 0.4), sp_v(0, 0, -1));
     scene s;
-    open_pass(&s, mesh_of_rectangles(turned, 6), 6, 1.6, texel, 0.5e-3);
+    /* under sanitizers of the same texels, which it is about */
+    open_pass(&s, mesh_of_rectangles(turned, 6), 6, 1.6, texel / COARSER, 0.5e-3);
     sp_evaluator *evaluator = scene_evaluator(&s);
     sp_coverage *coverage = scene_cover(evaluator, &above, 1, true);
     sp_evaluator_destroy(evaluator);

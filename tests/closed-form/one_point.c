@@ -121,9 +121,9 @@ static void together_they_are_a_cone(void **state)
     make(sprays);
     for (size_t i = 0; i < SPRAYS; i++) {
         for (size_t t = 0; t < 3; t++) {
-            double found = covered_from(&sprays[i], HEIGHT, texels[t], SP_TRAJECTORY_LINE, true);
+            double found = covered_from(&sprays[i], HEIGHT, texels[t] / COARSER, SP_TRAJECTORY_LINE, true);
             print_message("%g mm: ", 1e3 * texels[t]);
-            compare_with(sprays[i].name, "inverse", found, M_PI * HEIGHT * HEIGHT, 0.002 * COARSER);
+            compare_with(sprays[i].name, "inverse", found, M_PI * HEIGHT * HEIGHT, 0.002);
         }
         forget(&sprays[i]);
     }
