@@ -144,22 +144,6 @@ static void so_it_does_with_much_to_refine(void **state)
     compare(wide_yaml, "wide", 4, 4);
 }
 
-/* Ranks look at the clock together. */
-static void ranks_of_one_and_two_threads_keep_step(void **state)
-{
-    (void)state;
-    skip_without_mpi();
-    if (!COMPARES_THREADS)
-        skip();
-    write_file("types.yaml", types_yaml);
-    place_by(0, wide_yaml, "even");
-    place_by(1, wide_yaml, "uneven");
-    int status = run_in("uneven", MPIRUN "-n 1 " PLACE "scene.yaml -o out : -n 1 '" BINARY_DIR
-                                         "/sprayplan' place --threads 2 scene.yaml -o out");
-    assert_true(status == 0 || status == 4);
-    are_the_same("even", "uneven");
-}
-
 static void an_error_is_told_once(void **state)
 {
     (void)state;
@@ -324,7 +308,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_ranks_gives_the_same_bytes),
         cmocka_unit_test(so_it_does_with_much_to_refine),
-        cmocka_unit_test(ranks_of_one_and_two_threads_keep_step),
         cmocka_unit_test(an_error_is_told_once),
         cmocka_unit_test(all_end_at_the_time_limit),
         cmocka_unit_test(all_end_where_one_is_asked_to),
