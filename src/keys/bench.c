@@ -1,19 +1,11 @@
 /* The keys that `bench --json` prints, and `atlas --json`, which is among them. Kept in their order. */
-#include "keys/blocks.h"
+#include "keys/outputs.h"
 
 static const char *const words_accelerator[] = {"bvh", "sah", "naive", "none", "embree-fast", "embree-robust", NULL};
 static const char *const words_query[] = {"nearest", "occluded", NULL};
 static const char *const words_mode[] = {"cone", "grid", "incoherent", "surface", NULL};
 static const char *const words_trajectory[] = {"line", "parabola", NULL};
 
-#define COUNT(key, what)                                                                                               \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = what                                           \
-    }
-#define NUMBER(key, what)                                                                                              \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_NUMBER, .says = what                                                               \
-    }
 #define ACCELERATOR                                                                                                    \
     {                                                                                                                  \
         .name = "accelerator", .kind = SP_KEY_CHOICE, .words = words_accelerator, .says = "Which tree, or none"        \
@@ -24,7 +16,7 @@ static const sp_key stage_keys[] = {
 static const sp_block stage = {"atlas_stage", "a stage", NULL, stage_keys};
 
 static const sp_key atlas_keys[] = {
-    SP_OUTPUT_HEAD("atlas"),
+    OUTPUT_HEAD("atlas"),
     COUNT("triangles", "That were unfolded"),
     COUNT("charts", "Pieces that lie flat"),
     COUNT("charts_le4", "Those of at most four triangles"),
@@ -108,7 +100,7 @@ static const sp_key tables_keys[] = {
 static const sp_block tables = {"bench_study", "tables of a study of 2008", NULL, tables_keys};
 
 static const sp_key bench_keys[] = {
-    SP_OUTPUT_HEAD("bench"),
+    OUTPUT_HEAD("bench"),
     {.name = "mesh", .kind = SP_KEY_TEXT, .says = "As it was given"},
     COUNT("triangles", "Of the mesh"),
     {.name = "load", .kind = SP_KEY_BLOCK, .block = &load, .says = "Reading it"},

@@ -32,13 +32,6 @@ extern const sp_block sp_block_check, sp_block_study, sp_block_atlas, sp_block_b
 /* outputs.c */
 extern const sp_block sp_block_outputs;
 
-/* The keys that every such object begins with. */
-#define SP_OUTPUT_HEAD(name_of_command)                                                                                \
-    {.name = "sprayplan", .kind = SP_KEY_TEXT, .says = "The program's version"},                                       \
-    {                                                                                                                  \
-        .name = "command", .kind = SP_KEY_TEXT, .says = "`" name_of_command "`"                                        \
-    }
-
 /* keys.c: the key of that name, which the block has. */
 const sp_key *sp_key_of(const sp_block *block, const char *name);
 

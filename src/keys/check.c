@@ -1,25 +1,8 @@
 /* The keys that `check --json` prints. Kept in its order. */
-#include "keys/blocks.h"
+#include "keys/outputs.h"
 
 static const char *const words_role[] = {"clean", "obstacle", NULL};
 static const char *const words_outside[] = {"outside", NULL};
-
-#define COUNT(key, what)                                                                                               \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = what                                           \
-    }
-#define NUMBER(key, what)                                                                                              \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_NUMBER, .says = what                                                               \
-    }
-#define NUMBERS(key, what)                                                                                             \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_NUMBERS, .says = what                                                              \
-    }
-#define BLOCKS(key, of, what)                                                                                          \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_BLOCKS, .block = &of, .says = what                                                 \
-    }
 
 static const sp_key mesh_keys[] = {COUNT("triangles", "Those with some area, of all files"),
                                    COUNT("vertices", "Equal ones counted once"),
@@ -163,7 +146,7 @@ static const sp_key hollow_keys[] = {NUMBERS("place_m", "Its lowest point: x, y 
 static const sp_block hollow = {"check_hollow", "a place that film runs down to", NULL, hollow_keys};
 
 static const sp_key check_keys[] = {
-    SP_OUTPUT_HEAD("check"),
+    OUTPUT_HEAD("check"),
     {.name = "scene", .kind = SP_KEY_TEXT, .says = "As it was given"},
     {.name = "mesh", .kind = SP_KEY_BLOCK, .block = &mesh, .says = "Of all files together"},
     {.name = "flaws", .kind = SP_KEY_BLOCK, .block = &flaws, .says = "What is wrong with it, and where first"},

@@ -1,10 +1,5 @@
 /* What commands print with --json that have no result.json: by command. */
-#include "keys/blocks.h"
-
-#define NUMBER(key, what)                                                                                              \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_NUMBER, .says = what                                                               \
-    }
+#include "keys/outputs.h"
 
 static const sp_key hit_keys[] = {
     {.name = "ray", .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = "Which of the file, from 0"},
@@ -23,7 +18,7 @@ static const sp_key hit_keys[] = {
     {.name = NULL}};
 static const sp_block hit = {"trace_hit", "a hit", NULL, hit_keys};
 
-static const sp_key trace_keys[] = {SP_OUTPUT_HEAD("trace"),
+static const sp_key trace_keys[] = {OUTPUT_HEAD("trace"),
                                     {.name = "hits",
                                      .kind = SP_KEY_BLOCKS,
                                      .block = &hit,

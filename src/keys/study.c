@@ -1,23 +1,11 @@
 /* The keys of study.json, which `study --json` prints too. Kept in its order. */
-#include "keys/blocks.h"
+#include "keys/outputs.h"
 
 static const char *const words_trajectory[] = {"line", "parabola", "drag", NULL};
 static const char *const words_evaluator[] = {"forward", "inverse", NULL};
 static const char *const words_judged[] = {"points", "jets", NULL};
 static const char *const words_along[] = {"texel", "jets", NULL};
 
-#define COUNT(key, what)                                                                                               \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_COUNT, .range = SP_FROM(0), .says = what                                           \
-    }
-#define NUMBER(key, what)                                                                                              \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_NUMBER, .says = what                                                               \
-    }
-#define FLAG(key, what)                                                                                                \
-    {                                                                                                                  \
-        .name = key, .kind = SP_KEY_FLAG, .says = what                                                                 \
-    }
 #define TRAJECTORY                                                                                                     \
     {                                                                                                                  \
         .name = "trajectory", .kind = SP_KEY_CHOICE, .words = words_trajectory, .says = "How liquid flies"             \
@@ -115,7 +103,7 @@ static const sp_key place_keys[] = {
 static const sp_block place = {"study_place", "a placement", NULL, place_keys};
 
 static const sp_key study_keys[] = {
-    SP_OUTPUT_HEAD("study"),
+    OUTPUT_HEAD("study"),
     {.name = "scene", .kind = SP_KEY_TEXT, .says = "As it was given"},
     NUMBER("clean_area_m2", "What is to be cleaned, and counted"),
     FLAG("interrupted", "Whether it was stopped before its end"),

@@ -91,12 +91,12 @@ static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *b
         sp_emitter emitter = sp_bodies_emitter(live->evaluator, bodies, i);
         double flow = sp_nozzle_flow(&patterns->nozzles[i], &sp_evaluator_setup(live->evaluator)->liquid);
         bool known = kept->reach && patterns->count == 1 && same_source(&kept->source, &emitter.source);
-        if (!(flow > 0))
-            continue;
-        traced = traced || !known;
         sp_combination_begin_pattern(combination, patterns->nozzles, i, patterns->count);
-        done = known ? lay_known(live, kept, &emitter, flow, stride, combination)
-                     : lay_traced(live, &emitter, flow, stride, combination);
+        if (flow > 0) {
+            traced = traced || !known;
+            done = known ? lay_known(live, kept, &emitter, flow, stride, combination)
+                         : lay_traced(live, &emitter, flow, stride, combination);
+        }
         sp_combination_end_pattern(combination, patterns->nozzles, i, patterns->count);
     }
     sp_combination_end_nozzle(combination);
