@@ -53,8 +53,9 @@ bool sp_exhaustive_bound(sp_certifying *c, bool *known, sp_error *error)
     *known = false;
     if (!holds_candidates(search, c->problem.front))
         return true;
-    bool done = sp_exhaustive_create(search, search->coarse, search->outlay_most * (1 + SP_ROUNDING), c->deadline,
-                                     "certificate", &every, error);
+    /* bounds are of outlay: what takes more than max_water is among the bounded */
+    const sp_exhaustive_limits limits = {.outlay = search->outlay_most * (1 + SP_ROUNDING), .water = INFINITY};
+    bool done = sp_exhaustive_create(search, search->coarse, limits, c->deadline, "certificate", &every, error);
     *known = done && every.count && every.whole;
     if (*known)
         lower_all(c, &every);

@@ -71,12 +71,16 @@ static inline double sp_merit_price(const sp_search *search, const sp_pose *pose
     uint32_t mount = search->sites->items[pose->site].mount;
     return pow(sp_outlay_at(search, mount, search->candidates->variants[pose->variant].flow), power);
 }
+/* m³/s that layouts take at most besides their outlay's limit. */
+static inline double sp_water_most(const sp_search *search)
+{
+    return search->costly ? search->options->max_water * (1 + SP_ROUNDING) : INFINITY;
+}
 /* True where one more nozzle of this flow fits within an outlay of `budget`, and within max_water. */
 static inline bool sp_affords(const sp_search *search, double flow, double outlay, uint32_t mount, double more,
                               double budget)
 {
-    return outlay + sp_outlay_at(search, mount, more) <= budget &&
-           (!search->costly || flow + more <= search->options->max_water * (1 + SP_ROUNDING));
+    return outlay + sp_outlay_at(search, mount, more) <= budget && flow + more <= sp_water_most(search);
 }
 
 #endif

@@ -16,7 +16,7 @@
 typedef struct {
     const sp_search *search;
     const sp_poses_alone *poses;
-    double budget;
+    sp_exhaustive_limits limits;
     sp_exhaustive_record now;
     sp_alone *together;            /* [SP_EVERY_NOZZLES + 1], of the first so many nozzles */
     sp_exhaustive_record *records; /* of `first` on, [layouts that begin so] */
@@ -35,11 +35,14 @@ static double flow_of(const walker *w, size_t pose)
 
 static bool has_place(const walker *w, size_t pose)
 {
+    uint32_t mount = mount_of(w, pose);
+    double flow = w->now.flow + flow_of(w, pose);
+    double outlay = w->now.outlay + sp_outlay_at(w->search, mount, flow_of(w, pose));
     size_t there = 0;
     for (size_t i = 0; i < w->now.count; i++)
-        there += mount_of(w, w->now.pose[i]) == mount_of(w, pose);
-    return there < sp_mount_left(w->search, mount_of(w, pose)) && sp_number_allows(w->search, w->now.count) &&
-           sp_affords(w->search, w->now.flow, w->now.outlay, mount_of(w, pose), flow_of(w, pose), w->budget);
+        there += mount_of(w, w->now.pose[i]) == mount;
+    return there < sp_mount_left(w->search, mount) && sp_number_allows(w->search, w->now.count) &&
+           outlay <= w->limits.outlay && flow <= w->limits.water;
 }
 
 /* What a pose and those before it come to on all patches; m² that they cover. */
@@ -83,18 +86,19 @@ static void visit(walker *w, size_t pose)
     w->now = before;
 }
 
-static walker start_of(const sp_search *search, const sp_poses_alone *poses, double budget)
+static walker start_of(const sp_search *search, const sp_poses_alone *poses, sp_exhaustive_limits limits)
 {
     return (walker){.search = search,
                     .poses = poses,
-                    .budget = budget,
+                    .limits = limits,
                     .now = {.outlay = search->kept_flow, .flow = search->kept_flow}};
 }
 
 /* starts [count + 1]: where layouts that begin with each pose are kept; false where they are too many. */
-static bool number_layouts(const sp_search *search, const sp_poses_alone *poses, double budget, size_t *starts)
+static bool number_layouts(const sp_search *search, const sp_poses_alone *poses, sp_exhaustive_limits limits,
+                           size_t *starts)
 {
-    walker w = start_of(search, poses, budget);
+    walker w = start_of(search, poses, limits);
     for (size_t pose = 0; pose < poses->count && w.count <= LAYOUTS_MOST; pose++) {
         starts[pose] = w.count;
         if (has_place(&w, pose))
@@ -127,8 +131,8 @@ static sp_alone *create_together(const sp_poses_alone *poses)
 }
 
 /* Goes through all layouts; the same for any number of threads. */
-static bool go_through(const sp_search *search, const sp_poses_alone *poses, double budget, const size_t *starts,
-                       sp_exhaustive_record *records, sp_error *error)
+static bool go_through(const sp_search *search, const sp_poses_alone *poses, sp_exhaustive_limits limits,
+                       const size_t *starts, sp_exhaustive_record *records, sp_error *error)
 {
     bool done = true;
 #pragma omp parallel num_threads(sp_threads(&search->options->run)) reduction(&& : done)
@@ -137,7 +141,7 @@ static bool go_through(const sp_search *search, const sp_poses_alone *poses, dou
         done = together != NULL;
 #pragma omp for schedule(dynamic, 1)
         for (size_t pose = 0; pose < poses->count; pose++) {
-            walker w = start_of(search, poses, budget);
+            walker w = start_of(search, poses, limits);
             w.together = together;
             w.records = records + starts[pose];
             if (together && has_place(&w, pose))
@@ -168,11 +172,11 @@ static bool is_whole(const sp_search *search)
     return once || (search->alone && !search->runoffs);
 }
 
-static bool look_at_all(const sp_search *search, double budget, sp_deadline *deadline, const char *stage,
+static bool look_at_all(const sp_search *search, sp_exhaustive_limits limits, sp_deadline *deadline, const char *stage,
                         sp_exhaustive *every, sp_error *error)
 {
     size_t *starts = malloc((every->poses.count + 1) * sizeof *starts);
-    bool done = starts || sp_fail_memory(error), few = done && number_layouts(search, &every->poses, budget, starts);
+    bool done = starts || sp_fail_memory(error), few = done && number_layouts(search, &every->poses, limits, starts);
     bool evaluated = few;
     if (few)
         done = sp_poses_alone_evaluate(search, deadline, stage, &every->poses, &evaluated, error);
@@ -180,7 +184,7 @@ static bool look_at_all(const sp_search *search, double budget, sp_deadline *dea
         size_t count = starts[every->poses.count];
         every->records = malloc((count + 1) * sizeof *every->records);
         done = (every->records || sp_fail_memory(error)) &&
-               go_through(search, &every->poses, budget, starts, every->records, error);
+               go_through(search, &every->poses, limits, starts, every->records, error);
         every->count = done ? count : 0;
         if (done)
             qsort(every->records, count, sizeof *every->records, cheapest_first);
@@ -189,14 +193,14 @@ static bool look_at_all(const sp_search *search, double budget, sp_deadline *dea
     return done;
 }
 
-bool sp_exhaustive_create(const sp_search *search, const sp_evaluator *evaluator, double budget, sp_deadline *deadline,
-                          const char *stage, sp_exhaustive *every, sp_error *error)
+bool sp_exhaustive_create(const sp_search *search, const sp_evaluator *evaluator, sp_exhaustive_limits limits,
+                          sp_deadline *deadline, const char *stage, sp_exhaustive *every, sp_error *error)
 {
     *every = (sp_exhaustive){.whole = is_whole(search)};
     if (sp_evaluator_fidelity(evaluator)->method == SP_METHOD_FORWARD || !sp_deadline_goes_on(deadline, stage, 1))
         return true;
     return sp_poses_alone_list(search, evaluator, POSES_MOST, &every->poses, error) &&
-           (!every->poses.count || look_at_all(search, budget, deadline, stage, every, error));
+           (!every->poses.count || look_at_all(search, limits, deadline, stage, every, error));
 }
 
 void sp_exhaustive_free(sp_exhaustive *every)

@@ -19,10 +19,16 @@ typedef struct {
     bool whole;                    /* there is no other: a pose could not be taken twice, or not to any avail */
 } sp_exhaustive;
 
-/* All within an outlay of `budget` (m³/s), on the patches of `evaluator`, in which no pose is taken twice. Freed by the
- * caller, after failure too. */
-bool sp_exhaustive_create(const sp_search *search, const sp_evaluator *evaluator, double budget, sp_deadline *deadline,
-                          const char *stage, sp_exhaustive *every, sp_error *error);
+/* m³/s that a layout takes at most, with the kept nozzles. Where mounts cost something the two are limits of their own:
+ * what costs less outlay than another may take more water. */
+typedef struct {
+    double outlay, water;
+} sp_exhaustive_limits;
+
+/* All within the limits, on the patches of `evaluator`, in which no pose is taken twice. Freed by the caller, after
+ * failure too. */
+bool sp_exhaustive_create(const sp_search *search, const sp_evaluator *evaluator, sp_exhaustive_limits limits,
+                          sp_deadline *deadline, const char *stage, sp_exhaustive *every, sp_error *error);
 void sp_exhaustive_free(sp_exhaustive *every);
 
 #endif

@@ -72,12 +72,13 @@ bool sp_exhaustive_best(const sp_search *search, const sp_front *front, double b
     sp_exhaustive every;
     const sp_evaluator *fine = front->fine, *coarse = search->coarse;
     bool inverse = sp_evaluator_fidelity(fine)->method == SP_METHOD_INVERSE;
-    bool done = sp_exhaustive_create(search, fine, budget, deadline, "front", &every, error);
+    const sp_exhaustive_limits limits = {.outlay = budget, .water = sp_water_most(search)};
+    bool done = sp_exhaustive_create(search, fine, limits, deadline, "front", &every, error);
     *whole = every.count && every.whole;
     if (done && !every.count && inverse && coarse != fine) {
         /* too much to keep of so many patches; on fewer it is as near as the search comes */
         sp_exhaustive_free(&every);
-        done = sp_exhaustive_create(search, coarse, budget, deadline, "front", &every, error);
+        done = sp_exhaustive_create(search, coarse, limits, deadline, "front", &every, error);
     }
     done = done && (!every.count || collect(search, front, &every, partials, count, error));
     sp_exhaustive_free(&every);

@@ -194,6 +194,37 @@ static void max_water_limits_water_alone(void **state)
     room_close(&j.room);
 }
 
+/* What takes more than max_water may cost less than what is allowed: bounds are of outlay. */
+static void beyond_max_water_is_among_the_bounded_where_layouts_are_few(void **state)
+{
+    (void)state;
+    job j;
+    open_with(&j, 0, 12);
+    j.mounts[0] = j.mounts[1];
+    j.mounts[1].position = sp_v(-0.3, 0.2, 1);
+    j.mounts[1].cost = 0;
+    for (int i = 0; i < 2; i++) {
+        j.mounts[i].types = &j.type_list[1 - i];
+        j.mounts[i].type_count = 1;
+    }
+    strcpy(j.mounts[1].name, "P2");
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    j.options.max_water = 10 * LITRES_PER_MINUTE;
+    const sp_nozzle beyond = {
+        .type = j.type_list[0], .position = j.mounts[1].position, .axis = sp_v(0, 0, -1), .pressure = j.pressure};
+    double area = area_of(&j, &beyond, 1);
+    sp_proposal *proposal = job_place(&j);
+    const sp_certificate *certificate = &proposal->certificate;
+    assert_int_equal(proposal->layout->count, 1);
+    assert_true(proposal->layout->nozzles[0].type == j.type_list[1]);
+    assert_true(proposal->outlay > j.types[0].flow && proposal->coverage->covered_area < area);
+    assert_true(certificate->computed && certificate->every_layout);
+    assert_true(certificate->area_bound + SLACK >= area);
+    assert_true(certificate->water_bound <= j.types[0].flow * (1 + 1e-9));
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 /* Of nozzles that may lean and be moved every_aim knows the costs, too; refinement keeps within the water. */
 static void moved_and_aimed_nozzles_keep_their_mounts_costs(void **state)
 {
@@ -246,6 +277,7 @@ int main(void)
         cmocka_unit_test(least_outlay_is_proposed_and_proved),
         cmocka_unit_test(area_per_outlay_is_proposed),
         cmocka_unit_test(max_water_limits_water_alone),
+        cmocka_unit_test(beyond_max_water_is_among_the_bounded_where_layouts_are_few),
         cmocka_unit_test(moved_and_aimed_nozzles_keep_their_mounts_costs),
         cmocka_unit_test(kept_nozzles_cost_nothing),
     };
