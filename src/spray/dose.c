@@ -15,16 +15,17 @@ typedef struct {
     double step; /* of the pass, between two positions of the evaluator */
 } passing_point;
 
-/* What is seen at a share of the pass: by bits 1, 2, 4 of either arc whether it is there, in the spray, and free. */
+/* What is seen at a share of the pass: by bits 1, 2, 4, 8 of either arc whether it is there, in the spray, arrives as
+ * the criterion asks, and is free. */
 typedef struct {
     double at;
     unsigned state;
-    double flux;       /* m³/s per m² */
-    double margin;     /* rad, inside the spray, of the arc that is farthest inside */
+    double flux;   /* m³/s per m² */
+    double margin; /* rad, 0 or less, of the arc outside the spray that is nearest to it; -INFINITY: there is none */
     sp_vec3 direction; /* its */
 } glance;
 
-enum { THERE = 1, HELD = 2, FREE = 4, ARC = 3 };
+enum { THERE = 1, HELD = 2, PASSES = 4, FREE = 8, ARC = 4 };
 
 /* The way as it is looked along. */
 typedef struct {
@@ -53,16 +54,16 @@ static glance look(const passing_point *p, double at)
     sp_flight ways[2];
     int count = sp_source_flights(&source, p->target.point, ways);
     for (int k = 0; k < count; k++) {
-        double margin = sp_emitter_margin(emitter, ways[k].direction);
-        unsigned state = THERE;
+        bool held = sp_emitter_holds(emitter, ways[k].direction);
+        double margin = held ? -INFINITY : fmin(0, sp_emitter_margin(emitter, ways[k].direction));
+        unsigned state = held ? THERE | HELD : THERE;
         sp_arrival arrival;
         if (margin > seen.margin) {
             seen.margin = margin;
             seen.direction = ways[k].direction;
         }
-        if (sp_emitter_holds(emitter, ways[k].direction) && sp_arrive(&source, &p->target, &ways[k], &arrival) &&
-            arrival.passes) {
-            state |= HELD;
+        if (held && sp_arrive(&source, &p->target, &ways[k], &arrival) && arrival.passes) {
+            state |= PASSES;
             if (!sp_flight_visit(&source, &p->target, &ways[k], meets, &looking)) {
                 state |= FREE;
                 arrival.breadth = 0;
@@ -74,17 +75,18 @@ static glance look(const passing_point *p, double at)
     return seen;
 }
 
-static bool is_held(const glance *seen)
+static bool arrives(const glance *seen)
 {
-    return seen->state & (HELD | HELD << ARC);
+    return seen->state & (PASSES | PASSES << ARC);
 }
 
-/* Whether spray or shadow may begin or end between two places; a thin spray may do both. */
+/* Whether spray or shadow may begin or end between two places; a thin spray may do both. An arc that is in the spray at
+ * both and arrives from behind, too slowly or too slanted does not arrive otherwise in between. */
 static bool changes(const glance *from, const glance *to)
 {
     if (from->state != to->state)
         return true;
-    if (is_held(from) || !from->state)
+    if (arrives(from))
         return false;
     double turn = acos(fmin(1, fmax(-1, sp_dot(from->direction, to->direction))));
     return from->margin + to->margin + turn > 0;
@@ -99,7 +101,7 @@ static double trapezoid(const glance *from, const glance *to)
 static double integrate(const passing_point *p, const glance *from, const glance *to, double fine, unsigned halvings)
 {
     bool is_fine = to->at - from->at <= fine, halve = changes(from, to);
-    if (is_fine ? !halve || !halvings : !halve && !is_held(from) && !is_held(to))
+    if (is_fine ? !halve || !halvings : !halve && !arrives(from) && !arrives(to))
         return trapezoid(from, to);
     glance middle = look(p, 0.5 * (from->at + to->at));
     unsigned left = is_fine ? halvings - 1 : halvings;
