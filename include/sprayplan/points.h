@@ -65,7 +65,8 @@ SP_API bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layo
  * share of its patch less what sp_points_judge says of the point itself. The estimate is the size of the mean
  * difference and twice its standard error, the misjudged share the mean size of the difference. n doubles from 10,000
  * until twice the standard error is no more than a sixteenth of the setup's accuracy, or of the mean difference where
- * that is more, or n is 5,120,000: that what is then left is more shows in the estimate.
+ * that is more, or n is 5,120,000: that what is then left is more shows in the estimate. Where goods move a point is
+ * followed over the whole pass, which takes as long as some patches: it is then no more than a quarter, or n is 80,000.
  *
  * The standard error is that of pairs of neighbouring points (Cochran, Sampling techniques, 5A.12, collapsed strata),
  * which on average is never less than the true one, on a count of three more points than were found to differ: where
@@ -73,8 +74,8 @@ SP_API bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layo
  *
  * `reference` is how the liquid flies in truth; auto: as the setup says, parabolas where that leaves it open. The seed
  * draws the points. *measured is coverage->measured or another, the caller's. Where liquid that walls throw back was
- * followed points know nothing of it, where goods move judging them takes many times as long as evaluating, and where
- * nothing is counted there are none: `known` is false. Of film the error is what cells half as long change.
+ * followed points know nothing of it, and where nothing is counted there are none: `known` is false. Of film the error
+ * is what cells half as long change.
  * Given NULL from an earlier failure it returns false and keeps the error. */
 SP_API bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                              sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);

@@ -213,7 +213,7 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
     }
 }
 
-/* What goods that move take with them; of them no error is measured. */
+/* What goods that move take with them. */
 static void print_dose(const sp_result *result, const sp_figures *figures, int width)
 {
     for (size_t i = 0, told = 0; i < result->design_count; i++)

@@ -8,6 +8,14 @@ static void add_item(sp_text *text, const char *term)
     sp_text_add(text, "<dt>%s</dt><dd>", term);
 }
 
+/* What a closed form is not enough for; film and goods that move are not in one scene. */
+static const char *judged_besides(const sp_setup *setup)
+{
+    if (setup->criterion.film > 0)
+        return "; of film, which has none, it is what cells half as long change";
+    return setup->sweep.speed > 0 ? ", again and again over the whole pass" : "";
+}
+
 /* How far the coverage of each layout of an evaluator is off, where that was measured. */
 static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
@@ -33,9 +41,7 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
     }
     if (told)
         sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form%s</dd>\n",
-                    sp_evaluator_setup(evaluator)->criterion.film > 0
-                        ? "; of film, which has none, it is what cells half as long change"
-                        : "");
+                    judged_besides(sp_evaluator_setup(evaluator)));
 }
 
 static const char *way_of(sp_trajectory trajectory)

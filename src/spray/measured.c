@@ -9,7 +9,7 @@
 #define MOST (FEWEST << 9)
 #define BLOCK 65536      /* points in memory at a time; even */
 #define PRECISION 0.0625 /* of the accuracy or the difference, that twice the standard error may come to */
-#define ROUGH 0.25       /* the same, for choosing */
+#define ROUGH 0.25       /* the same, for choosing and of goods that move, where a point takes as long as a hundred */
 #define ROUGH_MOST (FEWEST << 3)
 #define UNSEEN 3 /* points that may differ though none was found to, with 95 % confidence */
 
@@ -97,7 +97,7 @@ static bool measure_on(const sp_evaluator *evaluator, const sp_layout *layout, s
                        sp_measured_error *measured, sp_error *error)
 {
     *measured = (sp_measured_error){.known = false};
-    if (evaluator->fidelity.reflections > 0 || evaluator->movers || !(m->coverage->area > 0))
+    if (evaluator->fidelity.reflections > 0 || !(m->coverage->area > 0))
         return true;
     sp_points *surface = sp_points_create(evaluator, error);
     sp_reference *reference = sp_reference_create(evaluator, layout, trajectory, error);
@@ -121,7 +121,10 @@ bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, co
         return false;
     if (reference == SP_TRAJECTORY_AUTO)
         reference = evaluator->setup.fidelity.trajectory;
-    measuring m = {.coverage = coverage, .seed = seed, .precision = PRECISION, .most = MOST};
+    measuring m = {.coverage = coverage,
+                   .seed = seed,
+                   .precision = evaluator->movers ? ROUGH : PRECISION,
+                   .most = evaluator->movers ? ROUGH_MOST : MOST};
     return measure_on(evaluator, layout, reference, &m, measured, error);
 }
 
