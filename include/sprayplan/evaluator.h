@@ -35,7 +35,8 @@ SP_API sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
  *    where too little, until its error estimated is at most half the accuracy; in the end the best that was tried
  *  - reflections: as many as it takes until the liquid that still flies can change the coverage by no more than a
  *    quarter of the accuracy, eight at most
- * Nothing depends on time or threads. It costs about as much as two or three evaluations. */
+ * Where goods move neither lines nor more than 100,000 texels are tried. Nothing depends on time or threads. It costs
+ * about as much as two or three evaluations. */
 SP_API sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
  * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
@@ -45,7 +46,8 @@ SP_API sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_lay
 SP_API sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 /* A third on the same geometry, by the scene's own method, to count on again what was found on `evaluator`, which must
  * outlive it: by parabolas where auto took lines, and with `shorter` on texels half as long where auto chose them. NULL
- * in *again where neither changes anything: auto takes no shorter texels than 1,600,000. False on error. */
+ * in *again where neither changes anything: auto takes no shorter texels than sp_evaluator_create_for says. False on
+ * error. */
 SP_API bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error);
 SP_API void sp_evaluator_destroy(sp_evaluator *evaluator);
 

@@ -30,7 +30,7 @@ static grain next_grain(const sp_setting_trial *trial, grain now)
     const sp_fidelity *open = &evaluator->setup.fidelity;
     bool shorter = trial->measured.bias > 0;
     if (shorter && !(open->texel > 0))
-        now.texel = fmax(SHORTER * now.texel, sp_texel_of(evaluator, SP_MOST_TEXELS));
+        now.texel = fmax(SHORTER * now.texel, sp_shortest_auto_texel(evaluator));
     uint64_t plain = sp_jets_for(evaluator, now.texel);
     double more = shorter ? 1 / (SHORTER * SHORTER) : MORE;
     if (open->jets == 0)

@@ -36,6 +36,11 @@ bool sp_setting_trial_keeps(const sp_setting_trial *trial)
     return trial->measured.estimate <= 0.5 * trial->evaluator->setup.fidelity.accuracy;
 }
 
+double sp_shortest_auto_texel(const sp_evaluator *evaluator)
+{
+    return sp_texel_of(evaluator, evaluator->movers ? SP_PLAIN_TEXELS : SP_MOST_TEXELS);
+}
+
 /* As a length, then what was measured of it. */
 static void tell_texel(const sp_setting_trial *trial, const char *what)
 {
@@ -49,7 +54,7 @@ static bool choose_texel(sp_setting_trial *trial, sp_error *error)
 {
     sp_evaluator *evaluator = trial->evaluator;
     double accuracy = evaluator->setup.fidelity.accuracy;
-    double texel = sp_texel_of(evaluator, SP_FEWEST_TEXELS), finest = sp_texel_of(evaluator, SP_MOST_TEXELS);
+    double texel = sp_texel_of(evaluator, SP_FEWEST_TEXELS), finest = sp_shortest_auto_texel(evaluator);
     if (sp_setting_trial_late(trial)) {
         snprintf(evaluator->choice.texel, SP_WHY, "the coarsest that auto takes, for lack of time: not measured");
         evaluator->fidelity.texel = texel;
@@ -78,15 +83,14 @@ static void tell_method(sp_evaluator *evaluator)
     snprintf(evaluator->choice.method, SP_WHY, "%s", why);
 }
 
-/* Points tell nothing of goods that move: what is left open stays as plain as without a layout. */
-static bool choose_unmeasured(sp_evaluator *evaluator, sp_error *error)
+/* An evaluation of goods that move takes long, and lines save little of it: their positions are as many. */
+static bool choose_trajectory(sp_setting_trial *trial, sp_error *error)
 {
-    const sp_fidelity *open = &evaluator->setup.fidelity;
-    if (!(open->texel > 0))
-        snprintf(evaluator->choice.texel, SP_WHY, "the plain length: of goods that move no error is measured");
-    if (open->trajectory == SP_TRAJECTORY_AUTO && evaluator->setup.gravity > 0)
-        snprintf(evaluator->choice.trajectory, SP_WHY, "parabolas: of goods that move no error is measured");
-    return sp_texels_create(evaluator, NULL, error);
+    sp_evaluator *evaluator = trial->evaluator;
+    if (!evaluator->movers)
+        return sp_auto_trajectory(trial, error);
+    snprintf(evaluator->choice.trajectory, SP_WHY, "parabolas: of goods that move lines are not tried");
+    return true;
 }
 
 bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
@@ -96,8 +100,6 @@ bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error
     bool done;
     if (open->method == SP_METHOD_AUTO)
         tell_method(evaluator);
-    if (evaluator->movers)
-        return choose_unmeasured(evaluator, error);
     evaluator->stage = "settings";
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
         done = sp_auto_forward(&trial, error);
@@ -107,7 +109,7 @@ bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error
         done = sp_texels_create(evaluator, NULL, error);
     bool inverse = evaluator->fidelity.method == SP_METHOD_INVERSE;
     if (done && inverse && open->trajectory == SP_TRAJECTORY_AUTO && evaluator->setup.gravity > 0)
-        done = sp_auto_trajectory(&trial, error);
+        done = choose_trajectory(&trial, error);
     evaluator->stage = NULL;
     sp_coverage_destroy(trial.coverage);
     return done;

@@ -17,6 +17,10 @@ bool sp_auto_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *erro
  * sides are there, and its texel is the setup's or the plain one. */
 bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
+/* The shortest texel (m) that is tried: of goods that move the plain one, since they are looked at in positions a texel
+ * apart, and half the texel is eight times the work. */
+double sp_shortest_auto_texel(const sp_evaluator *evaluator);
+
 /* What a choice is made by: the layout, what it does by the settings in hand, and how far that is off. */
 typedef struct {
     sp_evaluator *evaluator;

@@ -149,7 +149,7 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     bool lines = open->trajectory == SP_TRAJECTORY_AUTO && now->trajectory == SP_TRAJECTORY_LINE;
     double texel = now->texel;
     if (shorter && !(open->texel > 0))
-        texel = fmin(texel, fmax(0.5 * texel, sp_texel_of(evaluator, SP_MOST_TEXELS)));
+        texel = fmin(texel, fmax(0.5 * texel, sp_shortest_auto_texel(evaluator)));
     if (!lines && texel == now->texel)
         return true;
     sp_evaluator *finer = sp_evaluator_share(evaluator, texel, error);
