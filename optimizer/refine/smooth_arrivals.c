@@ -75,7 +75,7 @@ static sp_posed pose(const sp_search *search, const sp_pose_parameters *paramete
     return posed;
 }
 
-/* An arrival in the nozzle's hands: where it goes, how thick it arrives, how far inside the pattern it starts. */
+/* An arrival at the nozzle's pose: where it goes, how thick it arrives, how far inside the pattern it starts. */
 typedef struct {
     sp_flight flight;
     double transfer;  /* 1/m² */
@@ -84,52 +84,54 @@ typedef struct {
     sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
     double edge;      /* rad, its width */
     double inside;    /* smoothed, 0 to 1 */
-} sp_borne;
+} sp_posed_arrival;
 
 /* False where nothing is left of the pattern. */
-static bool bear(const sp_posed *posed, const sp_arrival *seen, bool flies, bool slopes, sp_borne *borne)
+static bool pose_arrival(const sp_posed *posed, const sp_arrival *seen, bool flies, bool slopes,
+                         sp_posed_arrival *arrival)
 {
-    borne->flight.direction = seen->direction;
-    borne->transfer = seen->transfer;
+    arrival->flight.direction = seen->direction;
+    arrival->transfer = seen->transfer;
     /* from where it was traced the direction is known, and most need not be flown to be left out */
     if (!posed->moved && sp_dot(seen->direction, posed->frame.z) < posed->least)
         return false;
     if (flies &&
-        !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &borne->flight, &borne->transfer))
+        !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &arrival->flight, &arrival->transfer))
         return false;
-    borne->local = sp_frame_local(&posed->frame, borne->flight.direction);
-    if (borne->local.z < posed->least)
+    arrival->local = sp_frame_local(&posed->frame, arrival->flight.direction);
+    if (arrival->local.z < posed->least)
         return false;
-    borne->margin = sp_spray_margin_slope(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
+    arrival->margin = sp_spray_margin_slope(&posed->spray, arrival->local, slopes ? &arrival->gradient : NULL);
     double own = OWN_EDGE * seen->breadth;
-    borne->edge = sqrt(posed->width.edge * posed->width.edge + own * own);
-    assert(borne->edge > 0);
-    double widths = borne->margin / borne->edge;
+    arrival->edge = sqrt(posed->width.edge * posed->width.edge + own * own);
+    assert(arrival->edge > 0);
+    double widths = arrival->margin / arrival->edge;
     if (widths < -FAR)
         return false;
-    borne->inside = widths > FAR ? 1 : sp_smooth_step(widths);
+    arrival->inside = widths > FAR ? 1 : sp_smooth_step(widths);
     return true;
 }
 
 /* Derivatives of a flight when its start moves along `move`, without drag differentiated from |r - g t²/2| = v t; with
  * u the direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and
  * u'. */
-static double shift(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, sp_vec3 move, sp_vec3 *turn)
+static double shift(const sp_posed *posed, const sp_posed_arrival *arrival, const sp_arrival *seen, sp_vec3 move,
+                    sp_vec3 *turn)
 {
     sp_vec3 g = posed->sight->gravity;
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
-    sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
+    sp_vec3 u = arrival->flight.direction, w = arrival->flight.velocity;
     if (posed->sight->launch.fronts) {
-        sp_flight_change change = sp_wavefronts_change(posed->sight->launch.fronts, &borne->flight, by);
+        sp_flight_change change = sp_wavefronts_change(posed->sight->launch.fronts, &arrival->flight, by);
         *turn = change.direction;
         return sp_dot(seen->normal, change.velocity) / sp_dot(seen->normal, w) - change.spread;
     }
-    double v = posed->sight->launch.speed, t = borne->flight.time;
+    double v = posed->sight->launch.speed, t = arrival->flight.time;
     double later = sp_dot(u, by) / sp_dot(u, w);
     *turn = sp_scale(sp_along(by, -later, w), 1 / (v * t));
     sp_vec3 faster = sp_along(sp_scale(*turn, v), later, g);
     /* spread = v t² √D with b = v² + r·g, D = b² - g² r² */
-    double b = v * v + sp_dot(r, g), root = borne->flight.spread / (v * t * t);
+    double b = v * v + sp_dot(r, g), root = arrival->flight.spread / (v * t * t);
     double d = 2 * b * sp_dot(by, g) - 2 * sp_dot(g, g) * sp_dot(r, by);
     double spread = 2 * later / t + d / (2 * root * root);
     return sp_dot(seen->normal, faster) / sp_dot(seen->normal, w) - spread;
@@ -140,26 +142,26 @@ typedef struct {
     double flux, share;
 } sp_log_slope;
 
-static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t k)
+static sp_log_slope log_slope(const sp_posed *posed, const sp_posed_arrival *arrival, const sp_arrival *seen, size_t k)
 {
     const sp_pose_parameters *parameters = posed->parameters;
-    double edge = (1 - borne->inside) / borne->edge;
+    double edge = (1 - arrival->inside) / arrival->edge;
     sp_log_slope slope = {0, 0};
     sp_vec3 turn;
     switch (parameters->kind[k]) {
     case SP_UNKNOWN_PLACE:
-        slope.flux = shift(posed, borne, seen, parameters->move[k], &turn);
-        slope.share = edge * sp_dot(borne->gradient, sp_frame_local(&posed->frame, turn));
+        slope.flux = shift(posed, arrival, seen, parameters->move[k], &turn);
+        slope.share = edge * sp_dot(arrival->gradient, sp_frame_local(&posed->frame, turn));
         break;
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
         if (edge > 0)
-            slope.share = edge * sp_dot(borne->gradient, sp_frame_local(&posed->turn[k], borne->flight.direction));
+            slope.share = edge * sp_dot(arrival->gradient, sp_frame_local(&posed->turn[k], arrival->flight.direction));
         break;
     case SP_UNKNOWN_ANGLE:
         if (edge > 0)
-            slope.share =
-                edge * (sp_spray_margin_slope(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
+            slope.share = edge * (sp_spray_margin_slope(&posed->other[k], arrival->local, NULL) - arrival->margin) /
+                          posed->step[k];
         slope.flux = posed->thicken[k];
         break;
     case SP_UNKNOWN_FLOW:
@@ -180,17 +182,17 @@ static double alone_of(const sp_posed *posed, double flux, double *rise)
     return cover;
 }
 
-static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t i,
+static void set_arrival(const sp_posed *posed, const sp_posed_arrival *arrival, const sp_arrival *seen, size_t i,
                         const sp_smooth_arrivals *arrivals)
 {
-    double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
+    double flux = posed->strength * arrival->transfer, share = seen->part * arrival->inside, rise;
     double alone = alone_of(posed, flux, &rise);
     assert(share >= 0 && alone >= 0 && alone <= 1);
     bool sums = !posed->search->alone;
     arrivals->alone[i] = share * alone;
     arrivals->flux[i] = sums ? share * (1 - alone) * flux : 0;
     for (size_t k = 0; arrivals->alone_slope && k < posed->parameters->count; k++) {
-        sp_log_slope by = log_slope(posed, borne, seen, k);
+        sp_log_slope by = log_slope(posed, arrival, seen, k);
         size_t at = k * posed->sight->count + i;
         double of_alone = share * (alone * by.share + rise * by.flux);
         double of_flux = share * flux * ((1 - alone) * (by.share + by.flux) - rise * by.flux);
@@ -200,15 +202,15 @@ static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_a
 }
 
 /* The liquid that an arrival brings its patch, m³/s, and by how much that changes with every unknown. */
-static void bring(const sp_posed *posed, const sp_borne *borne, const sp_arrival *seen, size_t i,
-                  const sp_brought *brought)
+static void set_brought(const sp_posed *posed, const sp_posed_arrival *arrival, const sp_arrival *seen, size_t i,
+                        const sp_brought *brought)
 {
     const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
     double flow = sp_nozzle_flow(&posed->nozzle, &sp_evaluator_setup(posed->search->coarse)->liquid);
     brought->amount[i] =
-        flow / posed->spray.solid_angle * borne->transfer * borne->inside * seen->part * patches->area[seen->patch];
+        flow / posed->spray.solid_angle * arrival->transfer * arrival->inside * seen->part * patches->area[seen->patch];
     for (size_t k = 0; brought->slope && k < posed->parameters->count; k++) {
-        sp_log_slope by = log_slope(posed, borne, seen, k);
+        sp_log_slope by = log_slope(posed, arrival, seen, k);
         double by_k = brought->amount[i] * (by.flux + by.share);
         brought->slope[k * posed->sight->count + i] = isfinite(by_k) ? by_k : 0;
     }
@@ -238,16 +240,16 @@ void sp_smooth_arrivals_set(const sp_search *search, const sp_pose_parameters *p
     bool flies = posed.moved || (slopes && has_place(parameters));
     for (size_t i = first; i < end; i++) {
         const sp_arrival *seen = &sight->seen[i];
-        sp_borne borne = {0};
-        bool there = bear(&posed, seen, flies, slopes, &borne);
+        sp_posed_arrival arrival = {0};
+        bool there = pose_arrival(&posed, seen, flies, slopes, &arrival);
         if (there && seen->passes) {
-            set_arrival(&posed, &borne, seen, i, arrivals);
+            set_arrival(&posed, &arrival, seen, i, arrivals);
         } else {
             set_nothing(parameters, sight->count, i, arrivals->alone, arrivals->alone_slope);
             set_nothing(parameters, sight->count, i, arrivals->flux, arrivals->flux_slope);
         }
         if (brought && there)
-            bring(&posed, &borne, seen, i, brought);
+            set_brought(&posed, &arrival, seen, i, brought);
         else if (brought)
             set_nothing(parameters, sight->count, i, brought->amount, brought->slope);
     }
