@@ -40,8 +40,8 @@ void sp_smooth_film_free(sp_smooth_film *film)
 }
 
 /* The film of what the arrivals bring, or of a derivative of that. */
-static void run_down(const sp_search *search, const sp_smooth_runoff *own, const double *brings, double times,
-                     float *film)
+static void find_film(const sp_search *search, const sp_smooth_runoff *own, const double *brings, double times,
+                      float *film)
 {
     sp_runoff *runoff = sp_search_runoff(search);
     double *arriving = sp_runoff_arriving(runoff);
@@ -55,10 +55,10 @@ static void run_down(const sp_search *search, const sp_smooth_runoff *own, const
 void sp_smooth_film_set(sp_smooth_film *film, size_t i, const double *chain)
 {
     const sp_smooth_runoff *own = &film->runs[i];
-    run_down(film->search, own, own->brought.amount, 1, own->film);
+    find_film(film->search, own, own->brought.amount, 1, own->film);
     for (size_t k = 0; chain && k < own->parameters->count; k++)
-        run_down(film->search, own, &own->brought.slope[k * own->sight->count], chain[k],
-                 &own->slope[k * film->search->patch_count]);
+        find_film(film->search, own, &own->brought.slope[k * own->sight->count], chain[k],
+                  &own->slope[k * film->search->patch_count]);
 }
 
 double sp_smooth_film_cover(const sp_smooth_film *film, size_t patch, double *rise)

@@ -1,6 +1,6 @@
 /* Deposits and the figures drawn from them. */
 #include "nozzle_bodies.h"
-#include "rundown.h"
+#include "falling_film.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -156,7 +156,7 @@ void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage)
             deposits->impact[i] /= deposits->flux[i];
         }
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
-        if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
+        if (evaluator->falling_film && deposits->film[i] >= evaluator->setup.criterion.film) {
             coverage->film.area += (1 - deposits->share[i]) * area;
             deposits->by_film[i] = deposits->share[i] < 0.5;
             deposits->share[i] = 1;
@@ -181,7 +181,7 @@ static void hold_means(sp_deposits *deposits)
 bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_coverage *coverage,
                           sp_error *error)
 {
-    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, bodies->patterns, coverage, error))
+    if (evaluator->falling_film && !sp_falling_film_find(evaluator->falling_film, bodies->patterns, coverage, error))
         return false;
     sp_coverage_judge(evaluator, coverage);
     hold_means(&coverage->deposits);

@@ -4,7 +4,7 @@
 #include "movers.h"
 #include "nozzle/valid.h"
 #include "resolution.h"
-#include "rundown.h"
+#include "falling_film.h"
 #include "spray/wet/wet.h"
 
 #include <stdio.h>
@@ -85,7 +85,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
     sp_mesh_box(setup->mesh, &evaluator->low, &evaluator->high);
     evaluator->farthest = sp_farthest_coordinate(evaluator->low, evaluator->high) + sp_sweep_reach(&setup->sweep);
-    if (!build(evaluator, layout, error) || !sp_rundown_create(evaluator, error)) {
+    if (!build(evaluator, layout, error) || !sp_falling_film_create(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
@@ -134,7 +134,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
     evaluator->fidelity.method = SP_METHOD_INVERSE;
     evaluator->fidelity.reflections = 0;
     evaluator->fidelity.splat = SP_SPLAT_NEAREST;
-    if (sp_texels_create(evaluator, fine, error) && sp_rundown_create(evaluator, error))
+    if (sp_texels_create(evaluator, fine, error) && sp_falling_film_create(evaluator, error))
         return evaluator;
     sp_evaluator_destroy(evaluator);
     return NULL;
@@ -162,7 +162,7 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     if (texel < now->texel)
         snprintf(finer->choice.texel, SP_WHY, "counted again: on texels of %.3g m the accuracy was not kept",
                  now->texel);
-    if (!sp_texels_create(finer, NULL, error) || !sp_rundown_create(finer, error)) {
+    if (!sp_texels_create(finer, NULL, error) || !sp_falling_film_create(finer, error)) {
         sp_evaluator_destroy(finer);
         return false;
     }
@@ -186,7 +186,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         sp_movers_destroy(evaluator->movers);
     }
     sp_texels_free(evaluator);
-    sp_rundown_destroy(evaluator);
+    sp_falling_film_destroy(evaluator);
     free(evaluator);
 }
 
@@ -232,15 +232,15 @@ unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, d
 
 const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count)
 {
-    *count = evaluator->rundown ? evaluator->rundown->hollow_count : 0;
-    return evaluator->rundown ? evaluator->rundown->hollows : NULL;
+    *count = evaluator->falling_film ? evaluator->falling_film->hollow_count : 0;
+    return evaluator->falling_film ? evaluator->falling_film->hollows : NULL;
 }
 
 const sp_flaw *sp_evaluator_cracks(const sp_evaluator *evaluator, double *width)
 {
-    const sp_rundown *rundown = evaluator->rundown;
-    *width = rundown ? rundown->flaws.crack : 0;
-    return rundown ? &rundown->flaws.cracks : NULL;
+    const sp_falling_film *falling_film = evaluator->falling_film;
+    *width = falling_film ? falling_film->flaws.crack : 0;
+    return falling_film ? &falling_film->flaws.cracks : NULL;
 }
 
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch)

@@ -1,6 +1,6 @@
 #include "reference.h"
 
-#include "rundown.h"
+#include "falling_film.h"
 
 #include <stdlib.h>
 
@@ -9,13 +9,13 @@
 /* Routes what arrives on finer cells. */
 static bool route_film(sp_reference *reference, sp_error *error)
 {
-    const sp_rundown *rundown = reference->truth.rundown;
-    if (!rundown)
+    const sp_falling_film *falling_film = reference->truth.falling_film;
+    if (!falling_film)
         return true;
-    reference->walls = sp_evaluator_resample(&reference->truth, FINER * rundown->walls->fidelity.texel, error);
+    reference->walls = sp_evaluator_resample(&reference->truth, FINER * falling_film->walls->fidelity.texel, error);
     reference->film = reference->walls ? sp_coverage_create(reference->walls, error) : NULL;
     return reference->film &&
-           sp_rundown_find(reference->walls->rundown, reference->bodies.patterns, reference->film, error);
+           sp_falling_film_find(reference->walls->falling_film, reference->bodies.patterns, reference->film, error);
 }
 
 sp_reference *sp_reference_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,

@@ -1,7 +1,7 @@
 /* Film, or the dose of goods that move, nozzle by nozzle, for who adds up those of many layouts. */
 #include "stream_spread.h"
 #include "nozzle/pattern.h"
-#include "rundown.h"
+#include "falling_film.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@ static bool create_film(sp_runoff *runoff, sp_error *error)
     const sp_evaluator *walls = runoff->walls;
     size_t room = walls->patches.count + 1;
     runoff->spread = malloc(room * sizeof *runoff->spread);
-    runoff->flow = malloc(sp_film_flows(walls->rundown->film) * sizeof *runoff->flow);
+    runoff->flow = malloc(sp_film_flows(walls->falling_film->film) * sizeof *runoff->flow);
     runoff->per_width = malloc(room * sizeof *runoff->per_width);
     return sp_stream_spread_create(&walls->patches, &runoff->discs, error) &&
            ((runoff->spread && runoff->flow && runoff->per_width) || sp_fail_memory(error));
@@ -31,7 +31,7 @@ sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error)
 {
     if (!walls)
         return NULL;
-    bool film = walls->rundown && walls->rundown->walls == walls;
+    bool film = walls->falling_film && walls->falling_film->walls == walls;
     bool dose = walls->movers && walls->setup.criterion.flux > 0;
     if (!film && !dose) {
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
@@ -90,7 +90,7 @@ void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, 
         memset(from, 0, count * sizeof *from);
         sp_stream_spread_add(&runoff->discs, &walls->setup.liquid, flow, runoff->arriving, from);
     }
-    sp_film_run_in(walls->rundown->film, from, runoff->flow, runoff->per_width, NULL);
+    sp_film_run_in(walls->falling_film->film, from, runoff->flow, runoff->per_width, NULL);
     memset(runoff->arriving, 0, count * sizeof *runoff->arriving);
     double scale = 1 / walls->setup.criterion.film;
     for (size_t i = 0; i < count; i++)

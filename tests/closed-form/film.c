@@ -3,7 +3,7 @@
 #include "measure.h"
 
 #include "film/laminar.h"
-#include "spray/rundown.h"
+#include "spray/falling_film.h"
 
 #define LAID 1e-4            /* m/s */
 #define LITRES (1e-3 / 60.0) /* m³/s per L/min */
@@ -258,7 +258,7 @@ static shares clean_vessel(double texel)
         .flux = LITRES, .impact_speed = 1, .incidence = deg(85), .film = 10 * LITRES, .combine = SP_COMBINE_SUM};
     w.evaluator = sp_evaluator_create(&setup, &error);
     assert_no_error(&error);
-    assert_true(w.evaluator->rundown->walls->patches.count < 40000);
+    assert_true(w.evaluator->falling_film->walls->patches.count < 40000);
     sp_nozzle_type up = spray_type(SP_PATTERN_FULL_CONE, 180);
     up.flow = 25 * LITRES * 2 * M_PI * 0.6;
     sp_nozzle nozzle = nozzle_at(&up, sp_v(0, 0, 1.35), sp_v(0, 0, 1), 0);

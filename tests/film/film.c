@@ -2,7 +2,7 @@
  * evaluator. */
 #include "rooms.h"
 
-#include "spray/rundown.h"
+#include "spray/falling_film.h"
 
 /* A room with something of everything in it. */
 static sp_mesh *crowded_room(void)
@@ -337,8 +337,8 @@ static void film_crosses_what_is_not_cleaned(void **state)
     w.evaluator = sp_evaluator_create(&setup, &error);
     assert_string_equal(error.message, "");
     w.cells = &w.evaluator->patches;
-    const sp_rundown *rundown = w.evaluator->rundown;
-    assert_true(rundown->walls->patches.count > w.cells->count);
+    const sp_falling_film *falling_film = w.evaluator->falling_film;
+    assert_true(falling_film->walls->patches.count > w.cells->count);
     const sp_nozzle_type cone = {
         .pattern = SP_PATTERN_FULL_CONE, .angle = 0.5, .flow = 1e-4, .at = 2e5, .exponent = 0.5, .cv = 0.95};
     sp_nozzle nozzle = {.type = &cone, .position = sp_v(0.75, 0, 0.5), .axis = sp_v(0, 0, -1), .pressure = 2e5};

@@ -23,11 +23,11 @@ struct sp_evaluator {
     sp_fragments fragments; /* of the atlas */
     sp_patches patches;
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
-    struct sp_rundown *rundown; /* rundown.h; NULL where the criterion does not ask for film */
-    struct sp_movers *movers;   /* movers.h; NULL where nothing moves; the origin owns it */
-    double began;               /* s, of a monotonic clock: when it was asked for */
-    const char *stage;          /* of which all that it does is a part, for the progress; NULL: each has its own */
-    size_t positions;           /* in which goods are looked at on their pass; 1 where nothing moves */
+    struct sp_falling_film *falling_film; /* falling_film.h; NULL where the criterion does not ask for film */
+    struct sp_movers *movers;             /* movers.h; NULL where nothing moves; the origin owns it */
+    double began;                         /* s, of a monotonic clock: when it was asked for */
+    const char *stage; /* of which all that it does is a part, for the progress; NULL: each has its own */
+    size_t positions;  /* in which goods are looked at on their pass; 1 where nothing moves */
 };
 
 /* Threads to use for sp_run's `threads`. */

@@ -1,4 +1,4 @@
-#include "rundown.h"
+#include "falling_film.h"
 
 #include "stream_spread.h"
 #include "film/laminar.h"
@@ -30,16 +30,15 @@ static sp_evaluator *create_walls(const sp_evaluator *evaluator, sp_error *error
     return NULL;
 }
 
-static void find_cells(const sp_evaluator *evaluator, sp_rundown *rundown)
+static void find_cells(const sp_evaluator *evaluator, sp_falling_film *falling_film)
 {
     const sp_patches *patches = &evaluator->patches;
     for (size_t i = 0; i < patches->count; i++) {
         uint32_t triangle = patches->triangle[i];
         double u, v;
         sp_triangle_weights(evaluator->setup.mesh, triangle, patches->point[i], &u, &v);
-        rundown->cell[i] =
-            rundown->walls
-                ->texel_patch[sp_atlas_texel(rundown->walls->atlas, triangle, u, v)][patches->side[i] == SP_SIDE_BACK];
+        falling_film->cell[i] = falling_film->walls->texel_patch[sp_atlas_texel(falling_film->walls->atlas, triangle, u,
+                                                                                v)][patches->side[i] == SP_SIDE_BACK];
     }
 }
 
@@ -107,21 +106,21 @@ static bool goes_before(const sp_hollow *a, const sp_hollow *b)
 }
 
 /* The worst of all pools, without specks that hold nothing. */
-static void list_hollows(sp_rundown *rundown)
+static void list_hollows(sp_falling_film *falling_film)
 {
-    double texel = rundown->walls->fidelity.texel, speck = SPECK * texel * texel;
-    size_t count, *kept = &rundown->hollow_count;
-    const sp_film_pool *pools = sp_film_pools(rundown->film, &count);
+    double texel = falling_film->walls->fidelity.texel, speck = SPECK * texel * texel;
+    size_t count, *kept = &falling_film->hollow_count;
+    const sp_film_pool *pools = sp_film_pools(falling_film->film, &count);
     for (size_t i = 0; i < count; i++) {
-        sp_hollow hollow = {rundown->walls->patches.point[pools[i].lowest], pools[i].area, pools[i].drains};
+        sp_hollow hollow = {falling_film->walls->patches.point[pools[i].lowest], pools[i].area, pools[i].drains};
         size_t at = *kept;
-        while (at > 0 && goes_before(&hollow, &rundown->hollows[at - 1]))
+        while (at > 0 && goes_before(&hollow, &falling_film->hollows[at - 1]))
             at--;
         if (at == SP_HOLLOWS || (hollow.drains && hollow.area < speck))
             continue;
         *kept += *kept < SP_HOLLOWS;
-        memmove(&rundown->hollows[at + 1], &rundown->hollows[at], (*kept - at - 1) * sizeof hollow);
-        rundown->hollows[at] = hollow;
+        memmove(&falling_film->hollows[at + 1], &falling_film->hollows[at], (*kept - at - 1) * sizeof hollow);
+        falling_film->hollows[at] = hollow;
     }
 }
 
@@ -135,48 +134,49 @@ static bool find_cracks(const sp_mesh *mesh, sp_mesh_diagnosis *flaws, sp_error 
     return done;
 }
 
-bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
+bool sp_falling_film_create(sp_evaluator *evaluator, sp_error *error)
 {
     if (!(evaluator->setup.criterion.film > 0))
         return true;
-    sp_rundown *rundown = evaluator->rundown = calloc(1, sizeof *rundown);
-    if (!rundown)
+    sp_falling_film *falling_film = evaluator->falling_film = calloc(1, sizeof *falling_film);
+    if (!falling_film)
         return sp_fail_memory(error);
-    rundown->cell = malloc((evaluator->patches.count + 1) * sizeof *rundown->cell);
-    if (!rundown->cell)
+    falling_film->cell = malloc((evaluator->patches.count + 1) * sizeof *falling_film->cell);
+    if (!falling_film->cell)
         return sp_fail_memory(error);
-    rundown->walls = evaluator->everything ? evaluator : create_walls(evaluator, error);
-    if (!rundown->walls)
+    falling_film->walls = evaluator->everything ? evaluator : create_walls(evaluator, error);
+    if (!falling_film->walls)
         return false;
-    const sp_evaluator *walls = rundown->walls;
+    const sp_evaluator *walls = falling_film->walls;
     if (!sp_evaluator_stage(evaluator, "film", 0, error))
         return false;
-    rundown->film = sp_film_create(&(sp_film_surface){.mesh = walls->setup.mesh,
-                                                      .atlas = walls->atlas,
-                                                      .tracer = walls->tracer,
-                                                      .cells = &walls->patches,
-                                                      .cell_of = (const uint32_t(*)[2])walls->texel_patch,
-                                                      .down = sp_scale(sp_unit(walls->setup.up), -1),
-                                                      .wave = sp_film_wave(&walls->setup.liquid, walls->setup.gravity)},
-                                   error);
-    if (!rundown->film)
+    falling_film->film =
+        sp_film_create(&(sp_film_surface){.mesh = walls->setup.mesh,
+                                          .atlas = walls->atlas,
+                                          .tracer = walls->tracer,
+                                          .cells = &walls->patches,
+                                          .cell_of = (const uint32_t(*)[2])walls->texel_patch,
+                                          .down = sp_scale(sp_unit(walls->setup.up), -1),
+                                          .wave = sp_film_wave(&walls->setup.liquid, walls->setup.gravity)},
+                       error);
+    if (!falling_film->film)
         return false;
-    find_cells(evaluator, rundown);
-    list_hollows(rundown);
-    return (measure_girth(walls, &rundown->girth) || sp_fail_memory(error)) &&
-           (evaluator->everything || find_cracks(walls->setup.mesh, &rundown->flaws, error));
+    find_cells(evaluator, falling_film);
+    list_hollows(falling_film);
+    return (measure_girth(walls, &falling_film->girth) || sp_fail_memory(error)) &&
+           (evaluator->everything || find_cracks(walls->setup.mesh, &falling_film->flaws, error));
 }
 
-void sp_rundown_destroy(sp_evaluator *evaluator)
+void sp_falling_film_destroy(sp_evaluator *evaluator)
 {
-    sp_rundown *rundown = evaluator->rundown;
-    if (!rundown)
+    sp_falling_film *falling_film = evaluator->falling_film;
+    if (!falling_film)
         return;
-    if (rundown->walls != evaluator)
-        sp_evaluator_destroy(rundown->walls);
-    sp_film_destroy(rundown->film);
-    free(rundown->cell);
-    free(rundown);
+    if (falling_film->walls != evaluator)
+        sp_evaluator_destroy(falling_film->walls);
+    sp_film_destroy(falling_film->film);
+    free(falling_film->cell);
+    free(falling_film);
 }
 
 /* Of the layout the nozzles that are solid streams, or those that are not. */
@@ -218,10 +218,11 @@ static bool add_streams(const sp_evaluator *walls, const sp_layout *streams, dou
 }
 
 /* What comes to every cell (m³/s) before it runs down. */
-static bool find_arriving(const sp_rundown *rundown, const sp_layout *layout, double *arriving, sp_error *error)
+static bool find_arriving(const sp_falling_film *falling_film, const sp_layout *layout, double *arriving,
+                          sp_error *error)
 {
-    sp_evaluator walls = *rundown->walls; /* as the liquid hits them, before it runs down */
-    walls.rundown = NULL;
+    sp_evaluator walls = *falling_film->walls; /* as the liquid hits them, before it runs down */
+    walls.falling_film = NULL;
     walls.stage = walls.stage ? walls.stage : "film";
     sp_layout *streams = part_of_layout(layout, true, error);
     sp_layout *sprays = streams ? part_of_layout(layout, false, error) : NULL;
@@ -232,23 +233,24 @@ static bool find_arriving(const sp_rundown *rundown, const sp_layout *layout, do
     return done;
 }
 
-bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+bool sp_falling_film_find(const sp_falling_film *falling_film, const sp_layout *layout, sp_coverage *coverage,
+                          sp_error *error)
 {
-    size_t count = rundown->walls->patches.count;
+    size_t count = falling_film->walls->patches.count;
     double *flow = malloc((count + 1) * sizeof *flow), *film = malloc((count + 1) * sizeof *film);
     sp_film_balance *balance = &coverage->film;
     sp_film_ends ends = {0};
     *balance = (sp_film_balance){.known = true};
-    bool done = ((flow && film) || sp_fail_memory(error)) && find_arriving(rundown, layout, flow, error) &&
-                sp_film_run(rundown->film, flow, film, &ends, error);
+    bool done = ((flow && film) || sp_fail_memory(error)) && find_arriving(falling_film, layout, flow, error) &&
+                sp_film_run(falling_film->film, flow, film, &ends, error);
     for (size_t i = 0; done && i < count; i++)
         balance->arriving += flow[i];
     for (size_t i = 0; done && i < coverage->deposits.count; i++)
-        coverage->deposits.film[i] = rundown->cell[i] == SP_NONE ? 0 : film[rundown->cell[i]];
+        coverage->deposits.film[i] = falling_film->cell[i] == SP_NONE ? 0 : film[falling_film->cell[i]];
     balance->left = ends.left;
     balance->astray = ends.astray;
     balance->held = ends.held;
-    balance->per_girth = rundown->girth > 0 ? balance->arriving / rundown->girth : 0;
+    balance->per_girth = falling_film->girth > 0 ? balance->arriving / falling_film->girth : 0;
     free(flow);
     free(film);
     return done;
