@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-void sp_live_tell_type(const sp_nozzle_type *type, size_t first_member, double numbers[SP_LIVE_TYPE_NUMBERS])
+void sp_live_write_type(const sp_nozzle_type *type, size_t first_member, double numbers[SP_LIVE_TYPE_NUMBERS])
 {
     const sp_rotation *turns = &type->rotation;
     const double all[SP_LIVE_TYPE_NUMBERS] = {type->pattern,
@@ -33,7 +33,7 @@ void sp_live_tell_type(const sp_nozzle_type *type, size_t first_member, double n
     memcpy(numbers, all, sizeof all);
 }
 
-void sp_live_tell_member(const sp_member *member, size_t type, double numbers[SP_LIVE_MEMBER_NUMBERS])
+void sp_live_write_member(const sp_member *member, size_t type, double numbers[SP_LIVE_MEMBER_NUMBERS])
 {
     const double all[SP_LIVE_MEMBER_NUMBERS] = {(double)type,   member->offset.x, member->offset.y, member->offset.z,
                                                 member->axis.x, member->axis.y,   member->axis.z,   member->roll,
@@ -41,7 +41,7 @@ void sp_live_tell_member(const sp_member *member, size_t type, double numbers[SP
     memcpy(numbers, all, sizeof all);
 }
 
-void sp_live_tell_nozzle(const sp_nozzle *nozzle, size_t type, double numbers[SP_LIVE_NOZZLE_NUMBERS])
+void sp_live_write_nozzle(const sp_nozzle *nozzle, size_t type, double numbers[SP_LIVE_NOZZLE_NUMBERS])
 {
     const double all[SP_LIVE_NOZZLE_NUMBERS] = {(double)type,
                                                 nozzle->position.x,

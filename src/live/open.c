@@ -160,12 +160,12 @@ bool sp_live_open(sp_live *live)
         return sp_fail(&live->error, SP_ERROR_ARGUMENT, NULL, 0, 0, "what was handed over does not belong together");
     if (!make_mesh(live) || !sp_live_make_types(live))
         return false;
-    const sp_wet_arrays told = {.sides = live->arrays[SP_LIVE_SIDES],
-                                .nodes = live->arrays[SP_LIVE_NODES],
-                                .node_count = live->bytes[SP_LIVE_NODES],
-                                .cuts = live->arrays[SP_LIVE_CUTS],
-                                .cut_count = live->bytes[SP_LIVE_CUTS] / sizeof(double[3])};
-    sp_wet *wet = sp_wet_restore(&live->mesh, &told, &live->error);
+    const sp_wet_arrays arrays = {.sides = live->arrays[SP_LIVE_SIDES],
+                                  .nodes = live->arrays[SP_LIVE_NODES],
+                                  .node_count = live->bytes[SP_LIVE_NODES],
+                                  .cuts = live->arrays[SP_LIVE_CUTS],
+                                  .cut_count = live->bytes[SP_LIVE_CUTS] / sizeof(double[3])};
+    sp_wet *wet = sp_wet_restore(&live->mesh, &arrays, &live->error);
     sp_atlas *atlas = wet ? make_atlas(live, settings) : NULL;
     if (!atlas) {
         sp_wet_destroy(wet);

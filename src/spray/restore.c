@@ -16,9 +16,9 @@ bool sp_evaluator_is_simple(const sp_evaluator *evaluator)
     return is_simple(&evaluator->setup, &evaluator->fidelity);
 }
 
-bool sp_evaluator_tell_wet(const sp_evaluator *evaluator, sp_wet_arrays *told, sp_error *error)
+bool sp_evaluator_wet_arrays(const sp_evaluator *evaluator, sp_wet_arrays *arrays, sp_error *error)
 {
-    return sp_wet_arrays_create(evaluator->wet, evaluator->setup.mesh->triangle_count, told, error);
+    return sp_wet_arrays_create(evaluator->wet, evaluator->setup.mesh->triangle_count, arrays, error);
 }
 
 static bool make_patches(sp_evaluator *evaluator, sp_error *error)

@@ -12,6 +12,6 @@ sp_evaluator *sp_evaluator_restore(const sp_setup *setup, sp_atlas *atlas, sp_we
 /* Whether all of an evaluator that coverage depends on can be restored. */
 bool sp_evaluator_is_simple(const sp_evaluator *evaluator);
 /* As sp_wet_arrays_create. */
-bool sp_evaluator_tell_wet(const sp_evaluator *evaluator, sp_wet_arrays *told, sp_error *error);
+bool sp_evaluator_wet_arrays(const sp_evaluator *evaluator, sp_wet_arrays *arrays, sp_error *error);
 
 #endif

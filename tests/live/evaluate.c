@@ -76,10 +76,10 @@ static void hand_over_surface(void)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     size_t triangles = mesh->triangle_count;
-    sp_wet_arrays told;
+    sp_wet_arrays arrays;
     sp_error error = {0};
-    assert_true(sp_evaluator_tell_wet(evaluator, &told, &error));
-    assert_true(told.cut_count > 0);
+    assert_true(sp_evaluator_wet_arrays(evaluator, &arrays, &error));
+    assert_true(arrays.cut_count > 0);
     hand_over(SP_LIVE_VERTICES, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     hand_over(SP_LIVE_TRIANGLES, mesh->triangles, triangles * sizeof *mesh->triangles);
     hand_over(SP_LIVE_PARTS, mesh->part, triangles * sizeof *mesh->part);
@@ -89,10 +89,10 @@ static void hand_over_surface(void)
     hand_over(SP_LIVE_UV, atlas->uv, triangles * sizeof *atlas->uv);
     hand_over(SP_LIVE_CHART_PAGE, atlas->chart_page, atlas->chart_count * sizeof *atlas->chart_page);
     hand_over(SP_LIVE_CHART_TEXEL, atlas->chart_texel, atlas->chart_count * sizeof *atlas->chart_texel);
-    hand_over(SP_LIVE_SIDES, told.sides, triangles);
-    hand_over(SP_LIVE_NODES, told.nodes, told.node_count);
-    hand_over(SP_LIVE_CUTS, told.cuts, told.cut_count * sizeof *told.cuts);
-    sp_wet_arrays_free(&told);
+    hand_over(SP_LIVE_SIDES, arrays.sides, triangles);
+    hand_over(SP_LIVE_NODES, arrays.nodes, arrays.node_count);
+    hand_over(SP_LIVE_CUTS, arrays.cuts, arrays.cut_count * sizeof *arrays.cuts);
+    sp_wet_arrays_free(&arrays);
 }
 
 static void hand_over_settings(const sp_setup *setup)
@@ -111,11 +111,11 @@ static void hand_over_settings(const sp_setup *setup)
                                                     [SP_LIVE_PAGE_EDGE] = atlas->page_edge,
                                                     [SP_LIVE_PAGE_COUNT] = (double)atlas->page_count};
     double types[3][SP_LIVE_TYPE_NUMBERS], members[2][SP_LIVE_MEMBER_NUMBERS];
-    sp_live_tell_type(&cone, 0, types[0]);
-    sp_live_tell_type(&pair, 0, types[1]);
-    sp_live_tell_type(&arms[0].type, 0, types[2]);
+    sp_live_write_type(&cone, 0, types[0]);
+    sp_live_write_type(&pair, 0, types[1]);
+    sp_live_write_type(&arms[0].type, 0, types[2]);
     for (size_t i = 0; i < 2; i++)
-        sp_live_tell_member(&arms[i], 2, members[i]);
+        sp_live_write_member(&arms[i], 2, members[i]);
     hand_over(SP_LIVE_SETTINGS, settings, sizeof settings);
     hand_over(SP_LIVE_TYPES, types, sizeof types);
     hand_over(SP_LIVE_MEMBERS, members, sizeof members);
@@ -125,7 +125,7 @@ static void hand_over_nozzles(bool second_on)
 {
     double rows[2][SP_LIVE_NOZZLE_NUMBERS];
     for (size_t i = 0; i < 2; i++)
-        sp_live_tell_nozzle(&nozzles[i], nozzles[i].type == &pair, rows[i]);
+        sp_live_write_nozzle(&nozzles[i], nozzles[i].type == &pair, rows[i]);
     rows[1][SP_LIVE_NOZZLE_NUMBERS - 1] = second_on;
     hand_over(SP_LIVE_NOZZLES, rows, sizeof rows);
 }
@@ -281,10 +281,10 @@ static void shadows_are_those_of_the_layout(void **state)
     assert_true(sp_shadows(evaluator, coverage, NULL, &shadows, &count, &error));
     assert_true(sp_live_find_shadows(live));
     const double(*list)[SP_LIVE_SHADOW_NUMBERS] = sp_live_tell(live, SP_LIVE_SHADOW_LIST);
-    size_t told = count < SP_LIVE_SHADOWS ? count : SP_LIVE_SHADOWS, of_flux = 0;
-    assert_int_equal((size_t)figure(SP_LIVE_SHADOW_COUNT), told);
+    size_t listed = count < SP_LIVE_SHADOWS ? count : SP_LIVE_SHADOWS, of_flux = 0;
+    assert_int_equal((size_t)figure(SP_LIVE_SHADOW_COUNT), listed);
     assert_float_equal(list[0][0], shadows[0].area, TOLERANCE);
-    for (size_t i = 0; i < told; i++) {
+    for (size_t i = 0; i < listed; i++) {
         assert_int_equal((size_t)list[i][4], shadows[i].part);
         assert_int_equal((size_t)list[i][5], shadows[i].lack);
         of_flux += shadows[i].lack == SP_LACK_FLUX;
@@ -375,7 +375,7 @@ static void what_does_not_belong_together_is_refused(void **state)
     corners[5] = (uint32_t)mesh->vertex_count;
     assert_false(sp_live_open(live));
     hand_over(SP_LIVE_TRIANGLES, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
-    hand_over(SP_LIVE_NODES, (const uint8_t[]){SP_TOLD_CUT, 0}, 2);
+    hand_over(SP_LIVE_NODES, (const uint8_t[]){SP_WET_CUT, 0}, 2);
     assert_false(sp_live_open(live));
     sp_live_destroy(live);
     live = own;

@@ -12,7 +12,7 @@ void sp_coder_start(sp_coder *coder)
     *coder = (sp_coder){.high = UINT32_MAX};
 }
 
-/* What low and high begin with alike is told. */
+/* What low and high begin with alike is put out. */
 static void settle(sp_coder *coder)
 {
     while (coder->low >> 24 == coder->high >> 24) {

@@ -13,19 +13,19 @@ static json_t *vector_json(sp_vec3 v)
     return json_pack("[fff]", v.x, v.y, v.z);
 }
 
-/* A design while it is told: what its nozzles bring by themselves, then what they bring together. */
+/* A design while it is encoded: what its nozzles bring by themselves, then what they bring together. */
 typedef struct {
     const sp_design *design;
     const sp_neighbours *neighbours;
     const sp_shown_quantities *quantities;
     sp_coder *coder;
     uint8_t *bytes, *off;              /* [patches], of what is in hand */
-    uint8_t *flux, *speed, *incidence; /* [patches], told */
+    uint8_t *flux, *speed, *incidence; /* [patches], encoded */
     uint8_t *most, *second;            /* [patches], the largest of what nozzles bring */
     sp_patch_guess guess;              /* [patches] */
-} teller;
+} encoder;
 
-static bool make_room(teller *t, size_t patches)
+static bool make_room(encoder *t, size_t patches)
 {
     uint8_t **all[] = {&t->bytes, &t->off,    &t->flux,           &t->speed,     &t->incidence,
                        &t->most,  &t->second, &t->guess.expected, &t->guess.hint};
@@ -37,7 +37,7 @@ static bool make_room(teller *t, size_t patches)
     return done;
 }
 
-static void free_room(teller *t)
+static void free_room(encoder *t)
 {
     uint8_t *all[] = {t->bytes, t->off,    t->flux,           t->speed,     t->incidence,
                       t->most,  t->second, t->guess.expected, t->guess.hint};
@@ -45,33 +45,33 @@ static void free_room(teller *t)
         free(all[i]);
 }
 
-static bool tell(teller *t, const uint8_t *values)
+static bool encode(encoder *t, const uint8_t *values)
 {
     return sp_patches_encode(t->neighbours, values, &t->guess, t->off, t->coder);
 }
 
 /* By neighbours alone. */
-static bool tell_alone(teller *t, const uint8_t *values)
+static bool encode_alone(encoder *t, const uint8_t *values)
 {
     for (size_t i = 0; i < t->neighbours->count; ++i) {
         t->guess.expected[i] = sp_patch_expected(t->neighbours, values, NULL, i);
         t->guess.hint[i] = 0;
     }
-    return tell(t, values);
+    return encode(t, values);
 }
 
-/* Of patches that liquid reaches, by those that it reaches too, and by how far off what was told before is. */
-static bool tell_reached(teller *t, const uint8_t *values)
+/* Of patches that liquid reaches, by those that it reaches too, and by how far off what was encoded before is. */
+static bool encode_reached(encoder *t, const uint8_t *values)
 {
     for (size_t i = 0; i < t->neighbours->count; ++i) {
         bool reached = t->flux[i] > 0;
         t->guess.expected[i] = reached ? sp_patch_expected(t->neighbours, values, t->flux, i) : 0;
         t->guess.hint[i] = (uint8_t)(reached ? 1 + sp_patch_size(t->off[i]) : 0);
     }
-    return tell(t, values);
+    return encode(t, values);
 }
 
-static void take_bytes(teller *t, int quantity, uint8_t *bytes)
+static void take_bytes(encoder *t, int quantity, uint8_t *bytes)
 {
     const sp_deposits *deposits = &t->design->coverage->deposits;
     const double *values = sp_shown_values(deposits, quantity);
@@ -83,11 +83,11 @@ static void take_bytes(teller *t, int quantity, uint8_t *bytes)
 #define APART 4 /* steps between the two largest that are told from each other */
 
 /* All that nozzles bring is the most that one does, or little more. */
-static bool tell_flux(teller *t)
+static bool encode_flux(encoder *t)
 {
     take_bytes(t, SP_SHOWN_FLUX, t->flux);
     if (!t->design->contributions)
-        return tell_alone(t, t->flux);
+        return encode_alone(t, t->flux);
     for (size_t i = 0; i < t->neighbours->count; ++i) {
         int apart = (t->most[i] - t->second[i]) / APART;
         t->guess.expected[i] = t->most[i];
@@ -96,19 +96,19 @@ static bool tell_flux(teller *t)
                                      : apart < SP_HINTS - 3 ? 2 + apart
                                                             : SP_HINTS - 1);
     }
-    return tell(t, t->flux);
+    return encode(t, t->flux);
 }
 
 /* The pressure follows the flux, where speed and incidence stay. */
-static bool tell_impact(teller *t)
+static bool encode_impact(encoder *t)
 {
     take_bytes(t, SP_SHOWN_IMPACT, t->bytes);
     for (size_t i = 0; i < t->neighbours->count; ++i)
         t->bytes[i] = (uint8_t)(t->bytes[i] - t->flux[i]);
-    return tell_reached(t, t->bytes);
+    return encode_reached(t, t->bytes);
 }
 
-static bool tell_covered(teller *t)
+static bool encode_covered(encoder *t)
 {
     const sp_deposits *deposits = &t->design->coverage->deposits;
     for (size_t i = 0; i < deposits->count; ++i) {
@@ -116,30 +116,30 @@ static bool tell_covered(teller *t)
         t->bytes[i] =
             (uint8_t)(deposits->covered[i] ? (share < HALF ? HALF : share) : (share < HALF ? share : HALF - 1));
     }
-    if (!tell_reached(t, t->bytes))
+    if (!encode_reached(t, t->bytes))
         return false;
     for (size_t i = 0; i < deposits->count; ++i)
         t->bytes[i] = deposits->by_film[i];
-    return tell_alone(t, t->bytes);
+    return encode_alone(t, t->bytes);
 }
 
 /* Where the page has them. */
-static bool tell_jets(teller *t)
+static bool encode_jets(encoder *t)
 {
     if (t->quantities->count <= SP_SHOWN_JETS)
         return true;
     take_bytes(t, SP_SHOWN_JETS, t->bytes);
-    return tell_reached(t, t->bytes);
+    return encode_reached(t, t->bytes);
 }
 
-static bool tell_deposits(teller *t)
+static bool encode_deposits(encoder *t)
 {
-    if (!tell_flux(t))
+    if (!encode_flux(t))
         return false;
     take_bytes(t, SP_SHOWN_SPEED, t->speed);
     take_bytes(t, SP_SHOWN_INCIDENCE, t->incidence);
-    return tell_reached(t, t->speed) && tell_reached(t, t->incidence) && tell_impact(t) && tell_jets(t) &&
-           tell_covered(t);
+    return encode_reached(t, t->speed) && encode_reached(t, t->incidence) && encode_impact(t) && encode_jets(t) &&
+           encode_covered(t);
 }
 
 /* The way that a shadow faces, and the box around its points. */
@@ -156,7 +156,7 @@ static void look_at(outlook *shadow, const sp_patches *patches, uint32_t patch)
 }
 
 /* The shadows that the page's table lists. */
-static json_t *tell_shadows(teller *t, sp_error *error)
+static json_t *encode_shadows(encoder *t, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(t->design->evaluator);
     sp_listed_shadows listed = {0};
@@ -178,14 +178,14 @@ static json_t *tell_shadows(teller *t, sp_error *error)
                                         vector_json(facing), "extent", sp_distance(seen[i].low, seen[i].high)));
     }
     sp_listed_shadows_free(&listed);
-    if (tell_alone(t, t->bytes))
+    if (encode_alone(t, t->bytes))
         return list;
     json_decref(list);
     return sp_fail_memory(error);
 }
 
 /* What one nozzle brings by itself. */
-static bool tell_brought(teller *t, size_t index)
+static bool encode_brought(encoder *t, size_t index)
 {
     const sp_contributions *does = t->design->contributions;
     double asked = sp_shown_asked(t->design, SP_SHOWN_FLUX);
@@ -196,15 +196,15 @@ static bool tell_brought(teller *t, size_t index)
         t->second[i] = byte > t->most[i] ? t->most[i] : byte > t->second[i] ? byte : t->second[i];
         t->most[i] = byte > t->most[i] ? byte : t->most[i];
     }
-    return tell_alone(t, t->bytes);
+    return encode_alone(t, t->bytes);
 }
 
 /* What one nozzle brings where that is known, and its sprays. */
-static json_t *tell_nozzle(teller *t, size_t index, sp_packed *packed, sp_error *error)
+static json_t *encode_nozzle(encoder *t, size_t index, sp_packed *packed, sp_error *error)
 {
     const sp_nozzle *nozzle = &t->design->layout->nozzles[index];
     bool known = t->design->contributions != NULL;
-    if (known && !tell_brought(t, index))
+    if (known && !encode_brought(t, index))
         return sp_fail_memory(error);
     char *name = sp_text_utf8(nozzle->name);
     json_t *object =
@@ -219,11 +219,11 @@ static json_t *tell_nozzle(teller *t, size_t index, sp_packed *packed, sp_error 
     return NULL;
 }
 
-static json_t *tell_nozzles(teller *t, sp_packed *packed, sp_error *error)
+static json_t *encode_nozzles(encoder *t, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < t->design->layout->count; ++i) {
-        json_t *nozzle = tell_nozzle(t, i, packed, error);
+        json_t *nozzle = encode_nozzle(t, i, packed, error);
         if (!nozzle || json_array_append_new(list, nozzle) != 0) {
             json_decref(list);
             return nozzle ? sp_fail_memory(error) : NULL;
@@ -253,27 +253,27 @@ static json_t *head_json(const sp_page *page, size_t design)
 }
 
 /* Into the design's JSON; false on error. */
-static bool tell_all(teller *t, json_t *object, sp_packed *packed, sp_error *error)
+static bool encode_all(encoder *t, json_t *object, sp_packed *packed, sp_error *error)
 {
-    json_t *nozzles = tell_nozzles(t, packed, error);
+    json_t *nozzles = encode_nozzles(t, packed, error);
     if (!nozzles || json_object_set_new(object, "nozzles", nozzles) != 0)
         return nozzles ? sp_fail_memory(error) != NULL : false;
-    if (!tell_deposits(t))
+    if (!encode_deposits(t))
         return sp_fail_memory(error) != NULL;
-    json_t *shadows = tell_shadows(t, error);
+    json_t *shadows = encode_shadows(t, error);
     return shadows && (json_object_set_new(object, "shadows", shadows) == 0 || sp_fail_memory(error));
 }
 
 json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantities *quantities,
                          const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
-    teller t = {
+    encoder t = {
         .design = &page->result->designs[index], .neighbours = neighbours, .quantities = quantities, .coder = coder};
     json_t *object = head_json(page, index);
     bool room = make_room(&t, neighbours->count) && object;
     if (!room)
         sp_fail_memory(error);
-    if (!room || !tell_all(&t, object, packed, error)) {
+    if (!room || !encode_all(&t, object, packed, error)) {
         json_decref(object);
         object = NULL;
     }

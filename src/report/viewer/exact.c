@@ -11,7 +11,7 @@
 
 /* Each as what it is more than the one before, in the order of the walk or as they stand; false where memory runs out.
  */
-static bool tell_words(const uint32_t *values, const uint32_t *order, size_t count, sp_coder *coder)
+static bool encode_words(const uint32_t *values, const uint32_t *order, size_t count, sp_coder *coder)
 {
     sp_number_model *model = calloc(1, sizeof *model);
     for (size_t i = 0; model && i < count; i++) {
@@ -22,7 +22,7 @@ static bool tell_words(const uint32_t *values, const uint32_t *order, size_t cou
     return model != NULL;
 }
 
-static bool tell_doubles(const double *values, size_t count, sp_coder *coder)
+static bool encode_doubles(const double *values, size_t count, sp_coder *coder)
 {
     sp_number_model *model = calloc(1, sizeof *model);
     for (size_t i = 0; model && i < count; i++)
@@ -46,7 +46,7 @@ static place count_nodes(const sp_wet_arrays *wet, size_t first)
 {
     place found = {0, 0};
     for (size_t open = 1; open; open--, found.node++)
-        if (wet->nodes[first + found.node] == SP_TOLD_CUT) {
+        if (wet->nodes[first + found.node] == SP_WET_CUT) {
             found.cut++;
             open += 2;
         }
@@ -72,7 +72,7 @@ typedef struct {
     sp_number_model cuts[3];
 } wet_models;
 
-static void tell_nodes(const sp_wet_arrays *wet, place first, wet_models *models, sp_coder *coder)
+static void encode_nodes(const sp_wet_arrays *wet, place first, wet_models *models, sp_coder *coder)
 {
     place count = count_nodes(wet, first.node);
     for (size_t i = 0; i < count.node; i++)
@@ -82,10 +82,10 @@ static void tell_nodes(const sp_wet_arrays *wet, place first, wet_models *models
 }
 
 /* Triangle by triangle: its sides, and how it is cut. */
-static bool tell_wet(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder, sp_wet_arrays *wet,
-                     sp_error *error)
+static bool encode_wet(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder,
+                       sp_wet_arrays *wet, sp_error *error)
 {
-    if (!sp_evaluator_tell_wet(evaluator, wet, error))
+    if (!sp_evaluator_wet_arrays(evaluator, wet, error))
         return false;
     place *places = find_places(wet, walk->count);
     wet_models *models = calloc(1, sizeof *models);
@@ -94,7 +94,7 @@ static bool tell_wet(const sp_evaluator *evaluator, const sp_triangle_order *wal
         uint32_t triangle = walk->triangle[i];
         sp_code_byte(coder, &models->sides, wet->sides[triangle]);
         if (is_partly(wet->sides[triangle]))
-            tell_nodes(wet, places[triangle], models, coder);
+            encode_nodes(wet, places[triangle], models, coder);
     }
     free(places);
     free(models);
@@ -107,8 +107,8 @@ static int ascending(const void *a, const void *b)
     return one < two ? -1 : one > two;
 }
 
-/* Which triangles are drawn, by their told numbers, ascending in each range. */
-static bool tell_drawn(const sp_drawn_surface *surface, const sp_triangle_order *walk, sp_coder *coder)
+/* Which triangles are drawn, by their numbers in the walk, ascending in each range. */
+static bool encode_drawn(const sp_drawn_surface *surface, const sp_triangle_order *walk, sp_coder *coder)
 {
     uint32_t *number = malloc((walk->count + 1) * sizeof *number);
     uint32_t *drawn = malloc((surface->triangle_count + 1) * sizeof *drawn);
@@ -119,20 +119,21 @@ static bool tell_drawn(const sp_drawn_surface *surface, const sp_triangle_order 
         drawn[i] = number[surface->triangles[i]];
     for (size_t i = 0; done && i < surface->range_count; i++)
         qsort(drawn + surface->ranges[i].first, surface->ranges[i].count, sizeof *drawn, ascending);
-    done = done && tell_words(drawn, NULL, surface->triangle_count, coder);
+    done = done && encode_words(drawn, NULL, surface->triangle_count, coder);
     free(number);
     free(drawn);
     return done;
 }
 
-static bool tell_surface(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder,
-                         sp_vertices_encoded *told)
+static bool encode_surface(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder,
+                           sp_vertices_encoded *vertices)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    return sp_vertices_encode(mesh, walk, coder, told) && tell_words(mesh->part, walk->triangle, walk->count, coder) &&
-           tell_words(atlas->chart_page, NULL, atlas->chart_count, coder) &&
-           tell_doubles(atlas->chart_texel, atlas->chart_count, coder) && sp_unfolded_tell(evaluator, walk, coder);
+    return sp_vertices_encode(mesh, walk, coder, vertices) &&
+           encode_words(mesh->part, walk->triangle, walk->count, coder) &&
+           encode_words(atlas->chart_page, NULL, atlas->chart_count, coder) &&
+           encode_doubles(atlas->chart_texel, atlas->chart_count, coder) && sp_unfolded_encode(evaluator, walk, coder);
 }
 
 json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_coder *coder,
@@ -141,15 +142,15 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     sp_triangle_order walk;
-    sp_vertices_encoded told;
+    sp_vertices_encoded vertices;
     sp_wet_arrays wet = {0};
     json_t *about = NULL;
-    if (!sp_triangle_order_create(&walk, mesh, atlas, coder) || !tell_surface(evaluator, &walk, coder, &told) ||
-        !tell_drawn(surface, &walk, coder))
+    if (!sp_triangle_order_create(&walk, mesh, atlas, coder) || !encode_surface(evaluator, &walk, coder, &vertices) ||
+        !encode_drawn(surface, &walk, coder))
         sp_fail_memory(error);
-    else if (tell_wet(evaluator, &walk, coder, &wet, error))
-        about = json_pack("{s:I, s:f, s:I, s:i, s:I, s:I, s:I, s:I, s:I}", "parts", (json_int_t)told.parts, "unit",
-                          told.unit, "base", (json_int_t)told.base, "digits", told.digits, "vertices",
+    else if (encode_wet(evaluator, &walk, coder, &wet, error))
+        about = json_pack("{s:I, s:f, s:I, s:i, s:I, s:I, s:I, s:I, s:I}", "parts", (json_int_t)vertices.parts, "unit",
+                          vertices.unit, "base", (json_int_t)vertices.base, "digits", vertices.digits, "vertices",
                           (json_int_t)mesh->vertex_count, "triangles", (json_int_t)mesh->triangle_count, "charts",
                           (json_int_t)atlas->chart_count, "nodes", (json_int_t)wet.node_count, "cuts",
                           (json_int_t)wet.cut_count);

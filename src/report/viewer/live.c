@@ -117,7 +117,7 @@ static json_t *settings_json(const sp_evaluator *evaluator)
     return numbers_json(settings, SP_LIVE_SETTING_COUNT);
 }
 
-/* Types by the rows that they are told in: those to choose from and those in use, then those of their members. */
+/* Types by the rows that they are written to: those to choose from and those in use, then those of their members. */
 typedef struct {
     size_t count, room;
     const sp_nozzle_type **types;
@@ -168,12 +168,12 @@ static json_t *types_json(type_rows *rows)
     for (size_t i = 0; i < rows->named; i++) /* members' rows come behind these */
         for (size_t k = 0; k < rows->types[i]->member_count; k++) {
             double numbers[SP_LIVE_MEMBER_NUMBERS];
-            sp_live_tell_member(&rows->types[i]->members[k], row_of(rows, &rows->types[i]->members[k].type), numbers);
+            sp_live_write_member(&rows->types[i]->members[k], row_of(rows, &rows->types[i]->members[k].type), numbers);
             json_array_append_new(rows->members, numbers_json(numbers, SP_LIVE_MEMBER_NUMBERS));
         }
     for (size_t i = 0; i < rows->count; i++) {
         double numbers[SP_LIVE_TYPE_NUMBERS];
-        sp_live_tell_type(rows->types[i], rows->member_count, numbers);
+        sp_live_write_type(rows->types[i], rows->member_count, numbers);
         rows->member_count += rows->types[i]->member_count;
         json_array_append_new(
             list, json_pack("{s:o, s:o, s:f}", "name", text_json(i < rows->named ? rows->types[i]->name : ""),
@@ -189,7 +189,7 @@ static json_t *layout_json(const sp_page *page, size_t design, type_rows *rows)
     for (size_t i = 0; i < layout->count; i++) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         double numbers[SP_LIVE_NOZZLE_NUMBERS];
-        sp_live_tell_nozzle(nozzle, row_of(rows, nozzle->type), numbers);
+        sp_live_write_nozzle(nozzle, row_of(rows, nozzle->type), numbers);
         double cost = page->figures[design].nozzles[i].cost;
         json_array_append_new(list, json_pack("{s:o, s:o, s:b, s:I, s:f}", "name", text_json(nozzle->name), "numbers",
                                               numbers_json(numbers, SP_LIVE_NOZZLE_NUMBERS), "keep", (int)nozzle->keep,

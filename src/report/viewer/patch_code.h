@@ -1,4 +1,4 @@
-/* What patches have, a byte each, told by what their neighbours on the page have. */
+/* What patches have, a byte each, encoded by what their neighbours on the page have. */
 #ifndef REPORT_VIEWER_PATCH_CODE_H
 #define REPORT_VIEWER_PATCH_CODE_H
 
@@ -17,7 +17,7 @@ typedef struct {
 bool sp_neighbours_find(sp_neighbours *neighbours, const sp_layers *layers);
 void sp_neighbours_free(sp_neighbours *neighbours);
 
-/* What is known of patches before their bytes are told. */
+/* What is known of patches before their bytes are encoded. */
 typedef struct {
     uint8_t *expected; /* [count] */
     uint8_t *hint;     /* [count], below SP_HINTS: of patches that have the same the bytes are off alike */

@@ -117,18 +117,18 @@ static double value_of(const sp_shown_quantity *q, int byte)
     return q->log ? q->low * pow(q->high / q->low, place) : q->low + place * (q->high - q->low);
 }
 
-static bool does_meet(const sp_shown_quantity *q, double asked, double told)
+static bool does_meet(const sp_shown_quantity *q, double asked, double shown)
 {
-    return q->at_most ? told <= asked : told >= asked;
+    return q->at_most ? shown <= asked : shown >= asked;
 }
 
 uint8_t sp_shown_byte(const sp_shown_quantity *q, double asked, double value)
 {
-    double told = value * q->to_unit;
-    double place = q->log ? log(told / q->low) / log(q->high / q->low) : (told - q->low) / (q->high - q->low);
+    double shown = value * q->to_unit;
+    double place = q->log ? log(shown / q->low) / log(q->high / q->low) : (shown - q->low) / (q->high - q->low);
     int byte = (int)(1 + lrint(254 * fmin(fmax(place, 0), 1)));
     /* What was rounded past what is asked goes back: the reader sees the value beside whether it is covered. */
-    bool meets = does_meet(q, asked, told);
+    bool meets = does_meet(q, asked, shown);
     if (asked > 0 && does_meet(q, asked, value_of(q, byte)) != meets)
         byte += meets == q->at_most ? -1 : 1;
     return (uint8_t)(byte < 1 ? 1 : byte > 255 ? 255 : byte);

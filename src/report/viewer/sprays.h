@@ -8,7 +8,7 @@
 #include <sprayplan/evaluator.h>
 
 /* Places in parts of `span` (m) off the nozzle, whose 32767 is all of it, as signed shorts: of each pattern where it is
- * and its rim, axis by axis. Then how many jets of each pattern are told, a byte each; of each leg of theirs the walls
+ * and its rim, axis by axis. Then how many jets of each pattern follow, a byte each; of each leg of theirs the walls
  * that were met before, plus 128 where a jet begins; and axis by axis where the legs end, and how far (up) the control
  * points of their curves lie over the middle of their ends (spray/paths.h). Adds to `object` "span", "sprays" and
  * "legs", how many there are. */

@@ -24,15 +24,15 @@ typedef struct {
     uint64_t *edges;     /* [3 triangles], from and to of what leads from each corner to the next, ascending */
     uint32_t *corner_of; /* [3 triangles], their corners */
     uint32_t *by_chart;  /* [triangles] */
-    bool *told;          /* [triangles of the mesh] */
-    uint32_t *number;    /* [vertices of the mesh], as they are told; SP_NONE: not yet */
-    uint32_t *first;     /* [vertices], the latest told corner at each, SP_NONE: none */
+    bool *encoded;       /* [triangles of the mesh] */
+    uint32_t *number;    /* [vertices of the mesh], as they are encoded; SP_NONE: not yet */
+    uint32_t *first;     /* [vertices], the latest encoded corner at each, SP_NONE: none */
     uint32_t *next;      /* [3 triangles], the one before at the same vertex */
-    bool *met;           /* [3 triangles], whether a triangle is told on the other side of this edge */
-    uint8_t *around;     /* [vertices], told triangles, FULL at most */
-    uint32_t *queue;     /* [3 triangles], edges of told corners that may lead on */
-    size_t queued, taken, told_count;
-    uint32_t fresh; /* vertices told */
+    bool *met;           /* [3 triangles], whether a triangle is encoded on the other side of this edge */
+    uint8_t *around;     /* [vertices], encoded triangles, FULL at most */
+    uint32_t *queue;     /* [3 triangles], edges of encoded corners that may lead on */
+    size_t queued, taken, encoded_count;
+    uint32_t fresh; /* vertices encoded */
 } walker;
 
 static uint32_t after(uint32_t corner)
@@ -56,10 +56,10 @@ static void meet(walker *w, uint32_t corner)
         }
 }
 
-/* Puts in the triangle told last, whose corners stand. */
+/* Puts in the triangle encoded last, whose corners stand. */
 static void put_in(walker *w)
 {
-    uint32_t start = 3 * (uint32_t)w->told_count++;
+    uint32_t start = 3 * (uint32_t)w->encoded_count++;
     for (uint32_t corner = start; corner < start + 3; corner++)
         if (!w->met[corner])
             meet(w, corner);
@@ -83,7 +83,7 @@ static void guess(uint32_t vertex, uint32_t guesses[GUESSES], int *count)
         guesses[(*count)++] = vertex;
 }
 
-/* Vertices that the rim of what is told goes on with from the ends of an edge of it. */
+/* Vertices that the rim of what is encoded goes on with from the ends of an edge of it. */
 static int find_guesses(const walker *w, uint32_t gate, uint32_t guesses[GUESSES])
 {
     uint32_t from = at(w, gate), to = at(w, after(gate));
@@ -111,14 +111,14 @@ static uint32_t number_of(walker *w, uint32_t vertex)
 }
 
 /* By itself. */
-static uint32_t tell_vertex(walker *w, uint32_t vertex)
+static uint32_t encode_vertex(walker *w, uint32_t vertex)
 {
     uint32_t fresh = w->fresh, number = number_of(w, vertex);
     sp_code_number(w->coder, &w->models->vertex, (int64_t)fresh - number);
     return number;
 }
 
-static uint32_t tell_far(walker *w, uint32_t gate, int classes, const uint32_t guesses[], int count, uint32_t vertex)
+static uint32_t encode_far(walker *w, uint32_t gate, int classes, const uint32_t guesses[], int count, uint32_t vertex)
 {
     const uint8_t *around = w->around;
     bool known = w->number[vertex] != SP_NONE;
@@ -131,7 +131,7 @@ static uint32_t tell_far(walker *w, uint32_t gate, int classes, const uint32_t g
         if (hit)
             return guesses[i];
     }
-    return tell_vertex(w, vertex);
+    return encode_vertex(w, vertex);
 }
 
 /* Whether a corner of the mesh lies where another one does. */
@@ -141,7 +141,8 @@ static bool same_spot(const walker *w, uint32_t one, uint32_t two)
     return a[0] == b[0] && a[1] == b[1];
 }
 
-/* The corner of a triangle that is not told yet, of the chart, from which an edge leads back along the gate; SP_NONE.
+/* The corner of a triangle that is not encoded yet, of the chart, from which an edge leads back along the gate;
+ * SP_NONE.
  */
 static uint32_t beyond(const walker *w, uint32_t gate)
 {
@@ -159,8 +160,8 @@ static uint32_t beyond(const walker *w, uint32_t gate)
     }
     for (; low < 3 * walk->count && w->edges[w->corner_of[low]] == sought; low++) {
         uint32_t corner = w->corner_of[low];
-        if (!w->told[corner / 3] && w->atlas->chart[corner / 3] == walk->chart[gate / 3] && same_spot(w, corner, end) &&
-            same_spot(w, after(corner), own))
+        if (!w->encoded[corner / 3] && w->atlas->chart[corner / 3] == walk->chart[gate / 3] &&
+            same_spot(w, corner, end) && same_spot(w, after(corner), own))
             return corner;
     }
     return SP_NONE;
@@ -169,11 +170,11 @@ static uint32_t beyond(const walker *w, uint32_t gate)
 static void begin(walker *w, uint32_t triangle, uint32_t gate, uint32_t far)
 {
     sp_triangle_order *walk = w->walk;
-    walk->triangle[w->told_count] = triangle;
-    walk->chart[w->told_count] = w->atlas->chart[triangle];
-    walk->gate[w->told_count] = gate;
-    walk->far[w->told_count] = (uint8_t)far;
-    w->told[triangle] = true;
+    walk->triangle[w->encoded_count] = triangle;
+    walk->chart[w->encoded_count] = w->atlas->chart[triangle];
+    walk->gate[w->encoded_count] = gate;
+    walk->far[w->encoded_count] = (uint8_t)far;
+    w->encoded[triangle] = true;
 }
 
 static void pass(walker *w, uint32_t gate)
@@ -183,27 +184,27 @@ static void pass(walker *w, uint32_t gate)
     sp_code_bit(w->coder, &w->models->reached[classes][w->around[from]][w->around[to]], corner != SP_NONE);
     if (corner == SP_NONE)
         return;
-    uint32_t own = corner % 3, far = (own + 2) % 3, *corners = w->walk->corners[w->told_count];
+    uint32_t own = corner % 3, far = (own + 2) % 3, *corners = w->walk->corners[w->encoded_count];
     corners[own] = to;
     corners[(own + 1) % 3] = from;
-    corners[far] = tell_far(w, gate, classes, guesses, count, w->mesh->triangles[corner / 3][far]);
+    corners[far] = encode_far(w, gate, classes, guesses, count, w->mesh->triangles[corner / 3][far]);
     sp_bit_model *turn = w->models->turn[corners[far] + 1 == w->fresh][3 * w->walk->far[gate / 3] + gate % 3];
     sp_code_bit(w->coder, &turn[1], own == 2);
     if (own < 2)
         sp_code_bit(w->coder, &turn[2], own == 1);
     begin(w, corner / 3, gate, far);
-    w->met[gate] = w->met[3 * w->told_count + own] = true;
+    w->met[gate] = w->met[3 * w->encoded_count + own] = true;
     put_in(w);
 }
 
 static void start(walker *w, uint32_t triangle)
 {
-    uint32_t *corners = w->walk->corners[w->told_count];
+    uint32_t *corners = w->walk->corners[w->encoded_count];
     uint32_t chart = w->atlas->chart[triangle];
     sp_code_number(w->coder, &w->models->chart,
-                   (int64_t)chart - (w->told_count ? w->walk->chart[w->told_count - 1] : 0));
+                   (int64_t)chart - (w->encoded_count ? w->walk->chart[w->encoded_count - 1] : 0));
     for (int k = 0; k < 3; k++)
-        corners[k] = tell_vertex(w, w->mesh->triangles[triangle][k]);
+        corners[k] = encode_vertex(w, w->mesh->triangles[triangle][k]);
     begin(w, triangle, SP_NONE, 0);
     put_in(w);
 }
@@ -211,7 +212,7 @@ static void start(walker *w, uint32_t triangle)
 static void walk_all(walker *w)
 {
     for (size_t i = 0; i < w->walk->count; i++) {
-        if (w->told[w->by_chart[i]])
+        if (w->encoded[w->by_chart[i]])
             continue;
         start(w, w->by_chart[i]);
         while (w->taken < w->queued) {
@@ -254,7 +255,7 @@ static bool make_room(walker *w)
     w->edges = malloc(3 * triangles * sizeof *w->edges);
     w->corner_of = malloc(3 * triangles * sizeof *w->corner_of);
     w->by_chart = malloc(triangles * sizeof *w->by_chart);
-    w->told = calloc(triangles, sizeof *w->told);
+    w->encoded = calloc(triangles, sizeof *w->encoded);
     w->number = malloc(vertices * sizeof *w->number);
     w->first = malloc(vertices * sizeof *w->first);
     w->next = malloc(3 * triangles * sizeof *w->next);
@@ -262,8 +263,8 @@ static bool make_room(walker *w)
     w->around = calloc(vertices, sizeof *w->around);
     w->queue = malloc(3 * triangles * sizeof *w->queue);
     bool done = walk->triangle && walk->vertex && walk->corners && walk->chart && walk->gate && walk->far &&
-                w->models && w->edges && w->corner_of && w->by_chart && w->told && w->number && w->first && w->next &&
-                w->met && w->around && w->queue;
+                w->models && w->edges && w->corner_of && w->by_chart && w->encoded && w->number && w->first &&
+                w->next && w->met && w->around && w->queue;
     if (done) {
         memset(w->number, 0xff, vertices * sizeof *w->number);
         memset(w->first, 0xff, vertices * sizeof *w->first);
@@ -282,7 +283,7 @@ bool sp_triangle_order_create(sp_triangle_order *walk, const sp_mesh *mesh, cons
     free(w.edges);
     free(w.corner_of);
     free(w.by_chart);
-    free(w.told);
+    free(w.encoded);
     free(w.number);
     free(w.first);
     free(w.next);

@@ -24,12 +24,12 @@ typedef struct {
     const sp_triangle_order *walk;
     sp_coder *coder;
     models *models;
-    double *parts;      /* [charts], of a pixel, that corners are told in; 0: bits */
-    spot *spots;        /* [vertices told] */
-    double (*uv)[3][2]; /* [triangles told], as they are read */
-} teller;
+    double *parts;      /* [charts], of a pixel, that corners are encoded in; 0: bits */
+    spot *spots;        /* [vertices encoded] */
+    double (*uv)[3][2]; /* [triangles encoded], as they are read */
+} encoder;
 
-static sp_vec3 place_of(const teller *t, uint32_t vertex)
+static sp_vec3 place_of(const encoder *t, uint32_t vertex)
 {
     return t->mesh->vertices[t->walk->vertex[vertex]];
 }
@@ -45,7 +45,7 @@ static void measure(sp_vec3 from, sp_vec3 to, sp_vec3 place, double *along, doub
 }
 
 /* Where corner i of a triangle lies if it is turned into the page at the edge to its neighbour and strained as that. */
-static void turn_in(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
+static void turn_in(const encoder *t, uint32_t triangle, uint32_t i, double uv[2])
 {
     uint32_t gate = t->walk->gate[triangle], third = (gate % 3 + 2) % 3;
     const uint32_t *v = t->walk->corners[triangle];
@@ -63,7 +63,7 @@ static void turn_in(const teller *t, uint32_t triangle, uint32_t i, double uv[2]
 }
 
 /* Where corner i of a triangle is looked for, from where the others are. */
-static void expect(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
+static void expect(const encoder *t, uint32_t triangle, uint32_t i, double uv[2])
 {
     if (t->walk->gate[triangle] == SP_NONE)
         memcpy(uv, i ? t->uv[triangle][i - 1] : (double[]){0, 0}, 2 * sizeof *uv);
@@ -71,7 +71,7 @@ static void expect(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
         turn_in(t, triangle, i, uv);
 }
 
-static void tell(const teller *t, uint32_t triangle, uint32_t i)
+static void encode(const encoder *t, uint32_t triangle, uint32_t i)
 {
     uint32_t chart = t->walk->chart[triangle], vertex = t->walk->corners[triangle][i];
     const double *value = t->atlas->uv[t->walk->triangle[triangle]][i];
@@ -93,7 +93,7 @@ static void tell(const teller *t, uint32_t triangle, uint32_t i)
     memcpy(known->uv, uv, sizeof known->uv);
 }
 
-static void tell_all(const teller *t)
+static void encode_all(const encoder *t)
 {
     const sp_triangle_order *walk = t->walk;
     for (uint32_t i = 0; i < walk->count; i++) {
@@ -101,11 +101,11 @@ static void tell_all(const teller *t)
         if (gate != SP_NONE) {
             memcpy(t->uv[i][(far + 1) % 3], t->uv[gate / 3][(gate % 3 + 1) % 3], sizeof t->uv[i][0]);
             memcpy(t->uv[i][(far + 2) % 3], t->uv[gate / 3][gate % 3], sizeof t->uv[i][0]);
-            tell(t, i, far);
+            encode(t, i, far);
             continue;
         }
         for (uint32_t k = 0; k < 3; k++)
-            tell(t, i, k);
+            encode(t, i, k);
     }
 }
 
@@ -129,17 +129,17 @@ static void find_parts(const sp_evaluator *evaluator, double *parts)
     }
 }
 
-bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder)
+bool sp_unfolded_encode(const sp_evaluator *evaluator, const sp_triangle_order *walk, sp_coder *coder)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    teller t = {.mesh = sp_evaluator_setup(evaluator)->mesh,
-                .atlas = atlas,
-                .walk = walk,
-                .coder = coder,
-                .models = calloc(1, sizeof *t.models),
-                .parts = malloc((atlas->chart_count + 1) * sizeof *t.parts),
-                .spots = malloc((walk->vertex_count + 1) * sizeof *t.spots),
-                .uv = malloc((walk->count + 1) * sizeof *t.uv)};
+    encoder t = {.mesh = sp_evaluator_setup(evaluator)->mesh,
+                 .atlas = atlas,
+                 .walk = walk,
+                 .coder = coder,
+                 .models = calloc(1, sizeof *t.models),
+                 .parts = malloc((atlas->chart_count + 1) * sizeof *t.parts),
+                 .spots = malloc((walk->vertex_count + 1) * sizeof *t.spots),
+                 .uv = malloc((walk->count + 1) * sizeof *t.uv)};
     bool done = t.models && t.parts && t.spots && t.uv;
     if (done) {
         find_parts(evaluator, t.parts);
@@ -147,7 +147,7 @@ bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_triangle_order *wa
             sp_code_number(coder, &t.models->parts, (int64_t)t.parts[c]);
         for (size_t i = 0; i < walk->vertex_count; i++)
             t.spots[i].chart = SP_NONE;
-        tell_all(&t);
+        encode_all(&t);
     }
     free(t.models);
     free(t.parts);

@@ -11,60 +11,60 @@
 #define MOST_DIGITS 60
 #define NEARLY_ALL 0.99
 
-static double read_back(const sp_vertices_encoded *told, double number)
+static double read_back(const sp_vertices_encoded *format, double number)
 {
-    return number / told->parts * told->unit;
+    return number / format->parts * format->unit;
 }
 
-static double number_of(const sp_vertices_encoded *told, double value)
+static double number_of(const sp_vertices_encoded *format, double value)
 {
-    return rint(fmin(fmax(value / told->unit * told->parts, -MOST), MOST));
+    return rint(fmin(fmax(value / format->unit * format->parts, -MOST), MOST));
 }
 
-static size_t count_whole(const sp_mesh *mesh, const sp_vertices_encoded *told)
+static size_t count_whole(const sp_mesh *mesh, const sp_vertices_encoded *format)
 {
     const double *values = &mesh->vertices[0].x;
     size_t whole = 0;
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-        whole += read_back(told, number_of(told, values[i])) == values[i];
+        whole += read_back(format, number_of(format, values[i])) == values[i];
     return whole;
 }
 
 /* The base to this power. */
-static double step_of(const sp_vertices_encoded *told, int power)
+static double step_of(const sp_vertices_encoded *format, int power)
 {
     double step = 1;
     while (power-- > 0)
-        step *= told->base;
+        step *= format->base;
     return step;
 }
 
 /* How many zeros a number has at least behind its digits. */
-static int zeros_of(const sp_vertices_encoded *told, double number)
+static int zeros_of(const sp_vertices_encoded *format, double number)
 {
     int zeros = 0;
-    for (double limit = step_of(told, told->digits); fabs(number) >= limit && zeros < MOST_DIGITS; zeros++)
-        limit *= told->base;
+    for (double limit = step_of(format, format->digits); fabs(number) >= limit && zeros < MOST_DIGITS; zeros++)
+        limit *= format->base;
     return zeros;
 }
 
 /* The fewest digits that nearly all numbers have. */
-static void find_digits(const sp_mesh *mesh, sp_vertices_encoded *told)
+static void find_digits(const sp_mesh *mesh, sp_vertices_encoded *format)
 {
     const double *values = &mesh->vertices[0].x;
     size_t count = 3 * mesh->vertex_count, fitting = 0;
-    for (told->digits = 1; told->digits < MOST_DIGITS && (double)fitting < NEARLY_ALL * (double)count;) {
+    for (format->digits = 1; format->digits < MOST_DIGITS && (double)fitting < NEARLY_ALL * (double)count;) {
         fitting = 0;
         for (size_t i = 0; i < count; i++) {
-            double number = number_of(told, values[i]);
-            fitting += fmod(number, step_of(told, zeros_of(told, number))) == 0;
+            double number = number_of(format, values[i]);
+            fitting += fmod(number, step_of(format, zeros_of(format, number))) == 0;
         }
-        told->digits += (double)fitting < NEARLY_ALL * (double)count;
+        format->digits += (double)fitting < NEARLY_ALL * (double)count;
     }
 }
 
 /* That under which most coordinates are whole: decimals, or binary fractions as floats of single precision are. */
-static sp_vertices_encoded told_of(const sp_mesh *mesh)
+static sp_vertices_encoded format_of(const sp_mesh *mesh)
 {
     static const double units[] = {1, 1e-3, 1e-2, 0.0254, 0.3048};
     static const double binary[] = {0x1p20, 0x1p28, 0x1p36};
@@ -88,33 +88,34 @@ typedef struct {
     sp_number_model zeros[3], off[3][17], missed;
 } models;
 
-/* The numbers that vertices become when they are read back, as they are told. */
+/* The numbers that vertices become when they are read back, as they are encoded. */
 typedef struct {
-    const sp_vertices_encoded *told;
-    double (*number)[3]; /* [vertices told], those that are known */
+    const sp_vertices_encoded *format;
+    double (*number)[3]; /* [vertices encoded], those that are known */
     sp_coder *coder;
     models *models;
-} teller;
+} encoder;
 
-static void tell(const teller *t, sp_vec3 place, const double expected[3], double number[3])
+static void encode(const encoder *t, sp_vec3 place, const double expected[3], double number[3])
 {
     const double value[3] = {place.x, place.y, place.z};
     int before = 0;
     for (int k = 0; k < 3; k++) {
-        double whole = number_of(t->told, value[k]);
-        int zeros = zeros_of(t->told, whole);
-        double step = step_of(t->told, zeros), near = floor(expected[k] / step + 0.5);
+        double whole = number_of(t->format, value[k]);
+        int zeros = zeros_of(t->format, whole);
+        double step = step_of(t->format, zeros), near = floor(expected[k] / step + 0.5);
         double off = rint(whole / step) - near;
-        sp_code_number(t->coder, &t->models->zeros[k], zeros - zeros_of(t->told, expected[k]));
+        sp_code_number(t->coder, &t->models->zeros[k], zeros - zeros_of(t->format, expected[k]));
         before = sp_code_number(t->coder, &t->models->off[k][(before + 3) / 4], (int64_t)off);
         number[k] = (near + off) * step;
-        sp_code_number(t->coder, &t->models->missed, sp_packed_apart(value[k], read_back(t->told, number[k])));
+        sp_code_number(t->coder, &t->models->missed, sp_packed_apart(value[k], read_back(t->format, number[k])));
     }
 }
 
 /* Over the edge that its triangle was reached over as far as the triangle on its other side, or else where the vertex
- * told before is. */
-static void expect(const teller *t, const sp_triangle_order *walk, uint32_t triangle, uint32_t vertex, double number[3])
+ * encoded before is. */
+static void expect(const encoder *t, const sp_triangle_order *walk, uint32_t triangle, uint32_t vertex,
+                   double number[3])
 {
     uint32_t gate = triangle == SP_NONE ? SP_NONE : walk->gate[triangle];
     if (gate == SP_NONE) {
@@ -127,7 +128,7 @@ static void expect(const teller *t, const sp_triangle_order *walk, uint32_t tria
         number[k] = t->number[a][k] + t->number[b][k] - t->number[other][k];
 }
 
-static void tell_all(const teller *t, const sp_mesh *mesh, const sp_triangle_order *walk)
+static void encode_all(const encoder *t, const sp_mesh *mesh, const sp_triangle_order *walk)
 {
     double expected[3];
     uint32_t fresh = 0;
@@ -135,25 +136,26 @@ static void tell_all(const teller *t, const sp_mesh *mesh, const sp_triangle_ord
         for (int k = 0; k < 3; k++)
             if (walk->corners[i][k] == fresh) {
                 expect(t, walk, i, fresh, expected);
-                tell(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
+                encode(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
                 fresh++;
             }
     for (; fresh < walk->vertex_count; fresh++) {
         expect(t, walk, SP_NONE, fresh, expected);
-        tell(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
+        encode(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
     }
 }
 
-bool sp_vertices_encode(const sp_mesh *mesh, const sp_triangle_order *walk, sp_coder *coder, sp_vertices_encoded *told)
+bool sp_vertices_encode(const sp_mesh *mesh, const sp_triangle_order *walk, sp_coder *coder,
+                        sp_vertices_encoded *format)
 {
-    *told = told_of(mesh);
-    teller t = {.told = told,
-                .number = malloc((walk->vertex_count + 1) * sizeof *t.number),
-                .coder = coder,
-                .models = calloc(1, sizeof *t.models)};
+    *format = format_of(mesh);
+    encoder t = {.format = format,
+                 .number = malloc((walk->vertex_count + 1) * sizeof *t.number),
+                 .coder = coder,
+                 .models = calloc(1, sizeof *t.models)};
     bool done = t.number && t.models;
     if (done)
-        tell_all(&t, mesh, walk);
+        encode_all(&t, mesh, walk);
     free(t.number);
     free(t.models);
     return done;

@@ -1,5 +1,5 @@
-/* Where a mesh's vertices are, told to the last bit in few: as whole numbers of the file that they were read from, each
- * as what it is off from where the triangle before it lets it be expected. */
+/* Where a mesh's vertices are, encoded to the last bit in few: as whole numbers of the file that they were read from,
+ * each as what it is off from where the triangle before it lets it be expected. */
 #ifndef REPORT_VIEWER_VERTEX_CODE_H
 #define REPORT_VIEWER_VERTEX_CODE_H
 
@@ -13,6 +13,7 @@ typedef struct {
 } sp_vertices_encoded;
 
 /* False where memory runs out. */
-bool sp_vertices_encode(const sp_mesh *mesh, const sp_triangle_order *walk, sp_coder *coder, sp_vertices_encoded *told);
+bool sp_vertices_encode(const sp_mesh *mesh, const sp_triangle_order *walk, sp_coder *coder,
+                        sp_vertices_encoded *format);
 
 #endif

@@ -19,7 +19,7 @@ static bool push(stack *open, uint32_t child)
     return true;
 }
 
-static bool tell_triangle(const sp_wet *wet, size_t triangle_count, uint32_t triangle, stack *open,
+static bool list_triangle(const sp_wet *wet, size_t triangle_count, uint32_t triangle, stack *open,
                           sp_wet_arrays *arrays, size_t room[2])
 {
     bool done = push(open, wet->cuts.root[triangle]);
@@ -29,7 +29,7 @@ static bool tell_triangle(const sp_wet *wet, size_t triangle_count, uint32_t tri
         if (!sp_grow(&arrays->nodes, &room[0], arrays->node_count + 1, 1))
             return false;
         arrays->nodes[arrays->node_count++] =
-            child & SP_CELL ? (uint8_t)(liquid[0] | liquid[1] << 1) : (uint8_t)SP_TOLD_CUT;
+            child & SP_CELL ? (uint8_t)(liquid[0] | liquid[1] << 1) : (uint8_t)SP_WET_CUT;
         if (child & SP_CELL)
             continue;
         const sp_cut *cut = &wet->cuts.cuts[child];
@@ -50,7 +50,7 @@ bool sp_wet_arrays_create(const sp_wet *wet, size_t triangle_count, sp_wet_array
     for (uint32_t t = 0; done && t < triangle_count; t++) {
         arrays->sides[t] = (uint8_t)(wet->sides[t] | wet->whole[t] << 2);
         if (wet->sides[t] != wet->whole[t])
-            done = tell_triangle(wet, triangle_count, t, &open, arrays, room);
+            done = list_triangle(wet, triangle_count, t, &open, arrays, room);
     }
     free(open.items);
     return done || sp_fail_memory(error);
@@ -79,14 +79,14 @@ static uint32_t take_node(making *m, uint32_t triangle)
     if (m->node == m->arrays->node_count)
         return SP_NONE;
     uint8_t node = m->arrays->nodes[m->node++];
-    if (node < SP_TOLD_CUT) {
+    if (node < SP_WET_CUT) {
         bool *liquid = &m->wet->flooded.liquid[2 * (m->triangle_count + cuts->cell_count)];
         liquid[0] = node & 1;
         liquid[1] = node >> 1;
         cuts->cell_triangle[cuts->cell_count] = triangle;
         return (uint32_t)cuts->cell_count++ | SP_CELL;
     }
-    if (node > SP_TOLD_CUT || m->cut == m->arrays->cut_count)
+    if (node > SP_WET_CUT || m->cut == m->arrays->cut_count)
         return SP_NONE;
     const double *line = m->arrays->cuts[m->cut++];
     cuts->cuts[cuts->cut_count] = (sp_cut){line[0], line[1], line[2], {SP_NONE, SP_NONE}};

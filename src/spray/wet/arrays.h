@@ -4,7 +4,7 @@
 
 #include "spray/wet/wet.h"
 
-#define SP_TOLD_CUT 4 /* a node that is a cut; any other is a cell, bit 0: liquid on its front, bit 1: on its back */
+#define SP_WET_CUT 4 /* a node that is a cut; any other is a cell, bit 0: liquid on its front, bit 1: on its back */
 
 typedef struct {
     uint8_t *sides; /* [triangle_count], bits 0 and 1: some of front and back is wet, bits 2 and 3: all of it */
