@@ -16,7 +16,7 @@ typedef struct {
 } cli_atlas_work;
 
 /* `texel` in m; 0: √(area/2²⁰), or what fits the longest edge on a page. Starts as {0}; to be cleared in any case. Of
- * the options it takes whether progress is told: of the stages charts, texels and figures. */
+ * the options it takes whether progress is reported: of the stages charts, texels and figures. */
 bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing,
                      sp_error *error);
 /* The same with the texture coordinates of the mesh's own file, in the stages reuse and figures. */

@@ -109,7 +109,7 @@ size_t cli_meter_peak(void); /* the most since the start, beyond what was held t
 
 /* picture_time.c: what follows the work that --time-limit is for has to fit into it as well. */
 /* How long errors, pictures and files will take, s, judged by drawing small pictures of `design`; `count` such designs
- * will be told of. 0 without a limit. */
+ * will be reported. 0 without a limit. */
 bool cli_picture_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
                       sp_error *error);
 /* What is left out for lack of time, in words. */
@@ -172,21 +172,21 @@ int cli_with_scene(const cli_options *options, bool evaluates, cli_work *work);
 
 /* False, with an error, of a nozzle that is in a wall or outside, or in a port that it does not pass. */
 bool cli_admits(const cli_scene *opened, const sp_nozzle *nozzle, sp_error *error);
-/* idle_mounts.c: tells of each mount of the scene's on which no nozzle can stand. False where memory runs out. */
-typedef void cli_teller(void *user, const char *text);
-bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user, sp_error *error);
-/* ports.c: tells of nozzles of the scene's own that stand in a port against its types, tilt, depths or steps, or where
+/* idle_mounts.c: warns of each mount of the scene's on which no nozzle can stand. False where memory runs out. */
+typedef void cli_warning_handler(void *user, const char *text);
+bool cli_warn_of_idle_mounts(const cli_scene *opened, cli_warning_handler *warn, void *user, sp_error *error);
+/* ports.c: warns of nozzles of the scene's own that stand in a port against its types, tilt, depths or steps, or where
  * another does, and of ports that are there twice. */
-void cli_tell_port_breaches(const cli_scene *opened, cli_teller *tell, void *user);
+void cli_warn_of_port_breaches(const cli_scene *opened, cli_warning_handler *warn, void *user);
 /* long_texel.c: whether the texel that is set is too long for patches to follow the surface; that, and what may be
  * meant, as a sentence. */
 enum { CLI_LONG_TEXEL = 240 };
-bool cli_tell_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL]);
+bool cli_warn_of_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL]);
 /* large_threshold.c: whether the criterion asks for more liquid than nozzles bring; that, as a sentence. */
 enum { CLI_LARGE_THRESHOLD = 240 };
-bool cli_tell_large_threshold(const sp_setup *setup, char text[CLI_LARGE_THRESHOLD]);
-/* kept_limits.c: tells of limits of `place` and of its alternatives that the nozzles to be kept go beyond. */
-void cli_tell_kept_beyond_limits(const cli_scene *opened, cli_teller *tell, void *user);
+bool cli_warn_of_large_threshold(const sp_setup *setup, char text[CLI_LARGE_THRESHOLD]);
+/* kept_limits.c: warns of limits of `place` and of its alternatives that the nozzles to be kept go beyond. */
+void cli_warn_of_kept_limits(const cli_scene *opened, cli_warning_handler *warn, void *user);
 /* A layout with its coverage, and the scene's mounts. */
 sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluator *evaluator, const sp_layout *layout,
                      const sp_coverage *coverage);

@@ -5,7 +5,8 @@
 
 static const char *const kinds[] = {"port", "surface", "line", "box"};
 
-static void tell_of(const sp_place_options *options, size_t mount, size_t points, cli_teller *tell, void *user)
+static void warn_of_mount(const sp_place_options *options, size_t mount, size_t points, cli_warning_handler *warn,
+                          void *user)
 {
     char text[320];
     const sp_mount *m = &options->mounts[mount];
@@ -22,10 +23,10 @@ static void tell_of(const sp_place_options *options, size_t mount, size_t points
                  points, options->clearance);
     else
         snprintf(text + used, sizeof text - (size_t)used, "no nozzle can be there: it has no mounting points");
-    tell(user, text);
+    warn(user, text);
 }
 
-bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user, sp_error *error)
+bool cli_warn_of_idle_mounts(const cli_scene *opened, cli_warning_handler *warn, void *user, sp_error *error)
 {
     sp_place_options options = sp_scene_place_options(opened->scene);
     size_t *all = calloc(2 * options.mount_count + 1, sizeof *all);
@@ -35,11 +36,11 @@ bool cli_tell_idle_mounts(const cli_scene *opened, cli_teller *tell, void *user,
     bool counted = sp_place_count_points(opened->evaluator, &options, all, all + options.mount_count, &own);
     for (size_t m = 0; counted && m < options.mount_count; m++)
         if (!all[options.mount_count + m])
-            tell_of(&options, m, all[m], tell, user);
+            warn_of_mount(&options, m, all[m], warn, user);
     free(all);
     if (own.kind == SP_ERROR_MEMORY)
         return sp_fail_memory(error);
     if (!counted)
-        tell(user, own.message);
+        warn(user, own.message);
     return true;
 }

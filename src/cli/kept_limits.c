@@ -23,8 +23,8 @@ static kept_sum sum_kept(const cli_scene *opened)
 }
 
 /* `alternative`: its name, NULL for the limits of `place` itself. */
-static void tell_of(kept_sum kept, const sp_place_options *limits, const char *alternative, cli_teller *tell,
-                    void *user)
+static void warn_of_limits(kept_sum kept, const sp_place_options *limits, const char *alternative,
+                           cli_warning_handler *warn, void *user)
 {
     char text[320], of[160] = "place";
     if (alternative)
@@ -34,27 +34,27 @@ static void tell_of(kept_sum kept, const sp_place_options *limits, const char *a
                  "%s: max_water of %.4g L/min is less than the %.4g L/min that the %zu nozzle%s to keep take%s", of,
                  6e4 * limits->max_water, 6e4 * kept.flow, kept.nozzles, kept.nozzles == 1 ? "" : "s",
                  kept.nozzles == 1 ? "s" : "");
-        tell(user, text);
+        warn(user, text);
     }
     if (limits->max_nozzles > 0 && kept.nozzles > limits->max_nozzles) {
         snprintf(text, sizeof text, "%s: max_nozzles of %zu is less than the %zu nozzles to keep", of,
                  limits->max_nozzles, kept.nozzles);
-        tell(user, text);
+        warn(user, text);
     }
 }
 
-/* An alternative that says nothing of its own has the limits of `place`, which are told once. */
-void cli_tell_kept_beyond_limits(const cli_scene *opened, cli_teller *tell, void *user)
+/* An alternative that says nothing of its own has the limits of `place`, which are warned of once. */
+void cli_warn_of_kept_limits(const cli_scene *opened, cli_warning_handler *warn, void *user)
 {
     const kept_sum kept = sum_kept(opened);
     const sp_place_options place = sp_scene_place_options(opened->scene);
-    tell_of(kept, &place, NULL, tell, user);
+    warn_of_limits(kept, &place, NULL, warn, user);
     for (size_t i = 0; i < sp_scene_alternative_count(opened->scene); i++) {
         sp_place_options own = sp_scene_alternative_options(opened->scene, i);
         if (own.max_nozzles == place.max_nozzles)
             own.max_nozzles = 0;
         if (!(own.max_water < place.max_water) && !(own.max_water > place.max_water))
             own.max_water = INFINITY;
-        tell_of(kept, &own, sp_scene_alternative_name(opened->scene, i), tell, user);
+        warn_of_limits(kept, &own, sp_scene_alternative_name(opened->scene, i), warn, user);
     }
 }

@@ -1,13 +1,13 @@
 /* Thresholds that no nozzle brings to a wall, as where another unit is meant: 1 m/s is a flux, 60000 L/min/m2. */
 #include "cli.h"
 
-/* In the unit that they are told in. Cleaning asks for a few L/min/m2, a washer's pass for a few L/m2, and a film of
+/* In the unit that they are written in. Cleaning asks for a few L/min/m2, a washer's pass for a few L/m2, and a film of
  * some 10 L/min/m holds together. */
 #define MOST_FLUX 500
 #define MOST_DOSE 500
 #define MOST_FILM 1000
 
-bool cli_tell_large_threshold(const sp_setup *setup, char text[CLI_LARGE_THRESHOLD])
+bool cli_warn_of_large_threshold(const sp_setup *setup, char text[CLI_LARGE_THRESHOLD])
 {
     const double pass = sp_sweep_duration(&setup->sweep);
     const struct {

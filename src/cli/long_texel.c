@@ -1,9 +1,9 @@
-/* Texels that are longer than anything can be told with, as where a number stands without its unit. */
+/* Texels that are too long to resolve anything, as where a number stands without its unit. */
 #include "cli.h"
 
 #define FEWEST 10 /* texels along the geometry's diagonal, that patches still follow its surface with */
 
-bool cli_tell_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL])
+bool cli_warn_of_long_texel(const sp_setup *setup, char text[CLI_LONG_TEXEL])
 {
     sp_vec3 low, high;
     double texel = setup->fidelity.texel, diagonal = sp_mesh_box(setup->mesh, &low, &high);

@@ -237,7 +237,7 @@ static bool unknown_option(const char *text)
 }
 
 /* `what` is unknown, of which `meant` may have been meant; NULL: nothing. */
-static void tell_unknown(const char *what, const char *text, const char *meant)
+static void report_unknown(const char *what, const char *text, const char *meant)
 {
     if (meant)
         fprintf(stderr, "sprayplan: unknown %s \"%s\"; did you mean %s?\n", what, text, meant);
@@ -256,7 +256,7 @@ void cli_unknown_topic(const char *text)
     size_t count = CLI_COMMANDS;
     while (topic_name(count))
         count++;
-    tell_unknown("command or topic", text, closest(text, topic_name, count));
+    report_unknown("command or topic", text, closest(text, topic_name, count));
 }
 
 /* What is called `name`, of `length`, or has this letter; whether the command takes it shows later. NULL for none. */
@@ -335,7 +335,7 @@ static bool read_name(reader *reader, const char *text)
         size_t command = cli_command_named(text);
         options->command = command == SIZE_MAX ? CLI_COMMANDS : (cli_command_id)command;
         if (command == SIZE_MAX)
-            tell_unknown("command", text, closest(text, command_name, CLI_COMMANDS));
+            report_unknown("command", text, closest(text, command_name, CLI_COMMANDS));
         return command != SIZE_MAX;
     }
     if (options->input_count == CLI_INPUTS_MOST) {

@@ -114,9 +114,9 @@ static bool write_report(const cli_options *options, const sp_result *result, co
     const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[own].evaluator);
     char *text = sp_scene_text(scenes[0], layout, fidelity, options->output, error);
     sp_editing editing = {.options = sp_scene_place_options(scenes[0]), .scene = text};
-    sp_result told = *result;
-    told.editing = &editing;
-    bool good = text && sp_report_write(&told, output, error);
+    sp_result edited = *result;
+    edited.editing = &editing;
+    bool good = text && sp_report_write(&edited, output, error);
     free(text);
     return good;
 }

@@ -239,7 +239,7 @@ static bool reserve_ending(const cli_options *options, const cli_scene *opened, 
 }
 
 /* Which alternative an error is about. */
-static void tell_alternative(const cli_scene *opened, size_t index, sp_error *error)
+static void name_alternative(const cli_scene *opened, size_t index, sp_error *error)
 {
     size_t used = strlen(error->message);
     if (sp_scene_alternative_count(opened->scene) > 0 && error->kind == SP_ERROR_INPUT)
@@ -277,7 +277,7 @@ static bool propose_one(const cli_options *options, const cli_scene *opened, pla
     if (proposal)
         keep_proposal(found, proposal, which);
     else
-        tell_alternative(opened, which, error);
+        name_alternative(opened, which, error);
     return proposal;
 }
 
@@ -442,7 +442,7 @@ static int conclude(const cli_options *options, const cli_scene *opened, cli_clo
     bool good = count_manual_again(opened, found, error) && follow_liquid(opened, found, error) &&
                 measure_errors(opened, found, error) &&
                 (options->quiet || (warn_of_own(opened, sp_scene_layout(opened->scene), error) &&
-                                    cli_tell_idle_mounts(opened, say_idle, NULL, error)));
+                                    cli_warn_of_idle_mounts(opened, say_idle, NULL, error)));
     return good ? report(options, opened, found, clock, error) : cli_fail_in(opened, error);
 }
 

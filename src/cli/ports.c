@@ -14,7 +14,7 @@ typedef struct {
     const sp_setup *setup;
     const sp_layout *layout;
     sp_place_options place;
-    cli_teller *tell;
+    cli_warning_handler *warn;
     void *user;
 } inspection;
 
@@ -25,7 +25,7 @@ __attribute__((format(printf, 2, 3))) static void say(const inspection *own, con
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    own->tell(own->user, text);
+    own->warn(own->user, text);
 }
 
 static bool holds(const inspection *own, const sp_mount *mount, sp_vec3 point)
@@ -42,7 +42,7 @@ static const sp_mount *port_at(const inspection *own, sp_vec3 point)
     return NULL;
 }
 
-static void tell_of_type(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
+static void check_type(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
 {
     sp_mount wide = *port;
     wide.bore = 0;
@@ -60,7 +60,7 @@ static double tilt_in(const sp_mount *port, const sp_nozzle *nozzle)
     return atan2(sp_length(sp_cross(port->axis, nozzle->axis)), sp_dot(port->axis, nozzle->axis));
 }
 
-static void tell_of_tilt(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
+static void check_tilt(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
 {
     double tilt = tilt_in(port, nozzle);
     if (tilt > port->tilt + LEAN_SLACK)
@@ -68,36 +68,36 @@ static void tell_of_tilt(const inspection *own, const sp_mount *port, const sp_n
             nozzle->name, port->name, tilt * 180 / M_PI, port->tilt * 180 / M_PI);
 }
 
-/* What of a lance is set, in SI, and how it is told: in a unit of which `per` make one of SI. */
+/* What of a lance is set, in SI, and how it is written: in a unit of which `per` make one of SI. */
 typedef struct {
     sp_step step;
     double from, value, low, high, slack;
-    const char *told, *unit;
+    const char *words, *unit;
     double per;
 } setting;
 
 /* A setting between those that the step leaves. */
-static void tell_of_step(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle, setting s)
+static void check_step(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle, setting s)
 {
     double size = sp_step_size(s.step), nearest = sp_step_nearest(s.step, s.from, s.value, s.low, s.high);
     if (size > 0 && fabs(s.value - nearest) > fmin(s.slack, OFF_A_STEP * size))
         say(own, "nozzle \"%s\": in port %s, %s %.5g %s, expected a step of %.5g %s: it can be mounted at %.5g %s",
-            nozzle->name, port->name, s.told, s.per * s.value, s.unit, s.per * size, s.unit, s.per * nearest, s.unit);
+            nozzle->name, port->name, s.words, s.per * s.value, s.unit, s.per * size, s.unit, s.per * nearest, s.unit);
 }
 
-/* Of a tilt beyond the port's that is told alone. */
-static void tell_of_steps(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
+/* Of a tilt beyond the port's that is reported alone. */
+static void check_steps(const inspection *own, const sp_mount *port, const sp_nozzle *nozzle)
 {
     double depth = sp_dot(sp_sub(nozzle->position, port->position), port->axis), tilt = tilt_in(port, nozzle);
-    tell_of_step(own, port, nozzle,
-                 (setting){port->depth_step, port->depth_from, depth, port->depth_from, port->depth_to, OFF_DEPTH,
-                           "at a depth of", "mm", 1e3});
+    check_step(own, port, nozzle,
+               (setting){port->depth_step, port->depth_from, depth, port->depth_from, port->depth_to, OFF_DEPTH,
+                         "at a depth of", "mm", 1e3});
     if (tilt <= port->tilt + LEAN_SLACK)
-        tell_of_step(own, port, nozzle,
-                     (setting){port->tilt_step, 0, tilt, 0, port->tilt, LEAN_SLACK, "tilted by", "deg", 180 / M_PI});
+        check_step(own, port, nozzle,
+                   (setting){port->tilt_step, 0, tilt, 0, port->tilt, LEAN_SLACK, "tilted by", "deg", 180 / M_PI});
 }
 
-static void tell_of_company(const inspection *own, const sp_mount *port, size_t index)
+static void check_occupancy(const inspection *own, const sp_mount *port, size_t index)
 {
     const sp_nozzle *nozzles = own->layout->nozzles;
     size_t first = 0;
@@ -119,7 +119,7 @@ static double depth_in(const inspection *own, const sp_mount *mount, sp_vec3 poi
 }
 
 /* One that no mount holds and that stands on a port's axis, of several that of the nearest mouth. */
-static void tell_of_depth(const inspection *own, const sp_nozzle *nozzle)
+static void check_depth(const inspection *own, const sp_nozzle *nozzle)
 {
     const sp_mount *port = NULL;
     double least = INFINITY;
@@ -137,21 +137,21 @@ static void tell_of_depth(const inspection *own, const sp_nozzle *nozzle)
             nozzle->name, port->name, 1e3 * least, 1e3 * port->depth_from, 1e3 * port->depth_to);
 }
 
-static void tell_of_nozzle(const inspection *own, size_t index)
+static void check_nozzle(const inspection *own, size_t index)
 {
     const sp_nozzle *nozzle = &own->layout->nozzles[index];
     const sp_mount *port = port_at(own, nozzle->position);
     if (port) {
-        tell_of_type(own, port, nozzle);
-        tell_of_tilt(own, port, nozzle);
-        tell_of_steps(own, port, nozzle);
-        tell_of_company(own, port, index);
+        check_type(own, port, nozzle);
+        check_tilt(own, port, nozzle);
+        check_steps(own, port, nozzle);
+        check_occupancy(own, port, index);
     } else if (sp_mount_at(own->setup, own->place.mounts, own->place.mount_count, nozzle->position) == SIZE_MAX) {
-        tell_of_depth(own, nozzle);
+        check_depth(own, nozzle);
     }
 }
 
-static void tell_of_twin(const inspection *own, size_t index)
+static void check_mouth(const inspection *own, size_t index)
 {
     const sp_mount *port = &own->place.mounts[index];
     for (size_t i = 0; i < index && port->kind == SP_MOUNT_PORT; i++) {
@@ -167,15 +167,15 @@ static void tell_of_twin(const inspection *own, size_t index)
     }
 }
 
-void cli_tell_port_breaches(const cli_scene *opened, cli_teller *tell, void *user)
+void cli_warn_of_port_breaches(const cli_scene *opened, cli_warning_handler *warn, void *user)
 {
     const inspection own = {.setup = sp_scene_setup(opened->scene),
                             .layout = sp_scene_layout(opened->scene),
                             .place = sp_scene_place_options(opened->scene),
-                            .tell = tell,
+                            .warn = warn,
                             .user = user};
     for (size_t i = 0; i < own.layout->count; i++)
-        tell_of_nozzle(&own, i);
+        check_nozzle(&own, i);
     for (size_t i = 0; i < own.place.mount_count; i++)
-        tell_of_twin(&own, i);
+        check_mouth(&own, i);
 }

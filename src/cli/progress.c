@@ -25,7 +25,7 @@ static struct {
     size_t number; /* of the stage that it is at, from 1; 0 before the first */
     char name[64];
     double began, drawn;
-    double done;   /* of the stage, when that was told last */
+    double done;   /* of the stage, when that was reported last */
     bool unsteady; /* it has fallen since: it tells nothing of the time that is left */
     double ends;   /* when the time limit does; 0: none */
     terminal kind;

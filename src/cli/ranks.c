@@ -1,7 +1,7 @@
 /* The processes that mpirun started beside this one. */
 #include "cli.h"
 
-/* The program's own state, as what signals leave: errors are told from everywhere. */
+/* The program's own state, as what signals leave: errors are reported from everywhere. */
 static sp_ranks *ranks;
 
 bool cli_join(sp_error *error)

@@ -1,4 +1,4 @@
-/* What a result tells besides its designs: what each nozzle does, how and when it was made. */
+/* What a result holds besides its designs: what each nozzle does, how and when it was made. */
 #include "cli.h"
 
 #include <stdlib.h>
@@ -16,12 +16,12 @@ typedef struct {
     double pictures; /* s, of full size; 0 where nothing limits them */
 } background;
 
-static void background_free(background *told)
+static void background_free(background *added)
 {
-    for (size_t i = 0; told->designs && i < told->design_count; i++)
-        sp_contributions_destroy((sp_contributions *)told->designs[i].contributions);
-    free(told->designs);
-    free(told->command_line);
+    for (size_t i = 0; added->designs && i < added->design_count; i++)
+        sp_contributions_destroy((sp_contributions *)added->designs[i].contributions);
+    free(added->designs);
+    free(added->command_line);
 }
 
 /* Of one design; what a search has found is worth its report without them, where it is interrupted. */
@@ -33,12 +33,12 @@ static bool find_contributions_of(const cli_options *options, sp_design *design,
     return design->contributions != NULL;
 }
 
-/* For what tells of them: a table on standard output does not, and it takes as long as evaluating the layouts. */
-static bool find_contributions(const cli_options *options, background *told, sp_error *error)
+/* For what reports them: a table on standard output does not, and it takes as long as evaluating the layouts. */
+static bool find_contributions(const cli_options *options, background *added, sp_error *error)
 {
-    bool asked = options->output || options->json, in_time = cli_time_left() >= LATE * told->pictures, whole = true;
-    for (size_t i = 0; asked && i < told->design_count; i++) {
-        sp_design *design = &told->designs[i];
+    bool asked = options->output || options->json, in_time = cli_time_left() >= LATE * added->pictures, whole = true;
+    for (size_t i = 0; asked && i < added->design_count; i++) {
+        sp_design *design = &added->designs[i];
         if (!design->evaluator)
             continue;
         if (in_time && !find_contributions_of(options, design, error))
@@ -46,17 +46,17 @@ static bool find_contributions(const cli_options *options, background *told, sp_
         whole = whole && design->contributions;
     }
     if (!whole)
-        cli_leave_out(&told->left_out, "what each nozzle brings");
+        cli_leave_out(&added->left_out, "what each nozzle brings");
     return true;
 }
 
 /* What there is no time for, as far as there is a limit; what was left out before comes first. */
-static bool fit_into_time(const cli_options *options, sp_result *full, background *told, sp_error *error)
+static bool fit_into_time(const cli_options *options, sp_result *full, background *added, sp_error *error)
 {
     for (size_t i = 0; i < full->left_out_count; i++)
-        cli_leave_out(&told->left_out, "%s", full->left_out[i]);
+        cli_leave_out(&added->left_out, "%s", full->left_out[i]);
     bool limited = isfinite(cli_time_left()) && options->output;
-    return !limited || cli_time_left() <= 0 || sp_report_picture_time(full, &told->pictures, error);
+    return !limited || cli_time_left() <= 0 || sp_report_picture_time(full, &added->pictures, error);
 }
 
 /* As a shell reads it back. */
@@ -82,7 +82,7 @@ static char *command_line(const cli_options *options)
 }
 
 /* UTC. SOURCE_DATE_EPOCH, as reproducible builds have it, stands for now where it is set. */
-static void tell_date(char *text, size_t size)
+static void write_date(char *text, size_t size)
 {
     const char *fixed = getenv("SOURCE_DATE_EPOCH");
     time_t now = fixed ? (time_t)strtoll(fixed, NULL, 10) : time(NULL);
@@ -104,30 +104,30 @@ static sp_picture_style picture_style(const cli_options *options, const sp_scene
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                 const cli_inputs *inputs, const sp_layout *layout, sp_error *error)
 {
-    background told = {.design_count = result->design_count,
-                       .designs = malloc((result->design_count + 1) * sizeof *told.designs),
-                       .command_line = command_line(options)};
+    background added = {.design_count = result->design_count,
+                        .designs = malloc((result->design_count + 1) * sizeof *added.designs),
+                        .command_line = command_line(options)};
     char *written = NULL;
-    bool good = (told.designs && told.command_line) || sp_fail_memory(error);
-    if (told.designs)
-        memcpy(told.designs, result->designs, result->design_count * sizeof *told.designs);
+    bool good = (added.designs && added.command_line) || sp_fail_memory(error);
+    if (added.designs)
+        memcpy(added.designs, result->designs, result->design_count * sizeof *added.designs);
     sp_result full = *result;
-    full.designs = told.designs;
+    full.designs = added.designs;
     full.style = picture_style(options, scenes);
-    good = good && fit_into_time(options, &full, &told, error) && find_contributions(options, &told, error);
+    good = good && fit_into_time(options, &full, &added, error) && find_contributions(options, &added, error);
     if (good && isfinite(cli_time_left()) && options->output)
-        full.picture_share = cli_picture_share(told.pictures, &told.left_out);
-    full.left_out = told.left_out.list;
-    full.left_out_count = told.left_out.count;
-    tell_date(told.date, sizeof told.date);
+        full.picture_share = cli_picture_share(added.pictures, &added.left_out);
+    full.left_out = added.left_out.list;
+    full.left_out_count = added.left_out.count;
+    write_date(added.date, sizeof added.date);
     full.inputs = inputs->list;
     full.input_count = inputs->count;
-    full.command_line = told.command_line;
-    full.date = told.date;
+    full.command_line = added.command_line;
+    full.date = added.date;
     good = good && cli_write(options, &full, scenes, layout, &written, error) && cli_print(options, &full, error);
     if (good)
         cli_say_written(options, written);
     free(written);
-    background_free(&told);
+    background_free(&added);
     return good;
 }

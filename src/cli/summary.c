@@ -29,7 +29,7 @@ static bool is_first_on(const sp_result *result, size_t design)
 /* What of the geometry is not sound, and what was done about it, once for every evaluator. */
 static void print_geometry(const sp_result *result)
 {
-    size_t told = 0;
+    size_t listed = 0;
     for (size_t i = 0; i < result->design_count; i++) {
         const sp_evaluator *evaluator = result->designs[i].evaluator;
         if (!evaluator || !is_first_on(result, i))
@@ -38,9 +38,9 @@ static void print_geometry(const sp_result *result)
         size_t count = sp_geometry_clauses(evaluator, clauses);
         for (size_t k = 0; k < count; k++)
             if (clauses[k].doubtful)
-                printf("geometry: %s\n", clauses[k].text), told++;
+                printf("geometry: %s\n", clauses[k].text), listed++;
     }
-    if (told)
+    if (listed)
         printf("(`check` says where)\n\n");
 }
 
@@ -58,7 +58,7 @@ static void area_text(const sp_figures *figures, double area, int least, char te
     cli_amount_text(area, figures->clean_area, least, least + 1, text);
 }
 
-/* Water and mounts, and that in money; nothing where neither is told. */
+/* Water and mounts, and that in money; nothing where neither is known. */
 static void print_price(const sp_figures *figures)
 {
     if (isfinite(figures->mount_cost))
@@ -88,9 +88,9 @@ static void print_figures(const sp_figures *figures, const char *name, int width
 /* How far each coverage is off, where that was measured. Rounded upwards: the error is no larger than said. */
 static void print_errors(const sp_result *result, const sp_figures *figures, int width)
 {
-    for (size_t i = 0, told = 0; i < result->design_count; i++)
+    for (size_t i = 0, listed = 0; i < result->design_count; i++)
         if (isfinite(figures[i].error_estimate))
-            printf("%s%-*s coverage %.2f %%, measured error \xc2\xb1%.2f points\n", told++ ? "" : "\n", width,
+            printf("%s%-*s coverage %.2f %%, measured error \xc2\xb1%.2f points\n", listed++ ? "" : "\n", width,
                    result->designs[i].name, 100 * figures[i].coverage, ceil(1e4 * figures[i].error_estimate) / 100);
 }
 
@@ -152,9 +152,9 @@ static void print_choice(const sp_result *result, const sp_figures *figures)
         for (int k = 0; k < 5 && first; k++)
             if (why[k][0])
                 print_setting(k, evaluator, why[k]);
-        if (first && cli_tell_long_texel(sp_evaluator_setup(evaluator), long_texel))
+        if (first && cli_warn_of_long_texel(sp_evaluator_setup(evaluator), long_texel))
             printf("warning: %s\n", long_texel);
-        if (first && cli_tell_large_threshold(sp_evaluator_setup(evaluator), threshold))
+        if (first && cli_warn_of_large_threshold(sp_evaluator_setup(evaluator), threshold))
             printf("warning: %s\n", threshold);
         if (error > accuracy || (!isfinite(error) && first && choice->missed))
             print_missed(&result->designs[i]);
@@ -192,15 +192,15 @@ static void print_liquid(const sp_result *result, const sp_figures *figures, int
 /* What runs down the walls, and what of it stays: a hollow that cannot drain is a fault of the vessel. */
 static void print_film(const sp_result *result, const sp_figures *figures, int width)
 {
-    bool told = false;
+    bool headed = false;
     for (size_t i = 0; i < result->design_count; i++) {
         const sp_film_balance *film = &figures[i].film;
         if (!film->known)
             continue;
-        if (!told)
+        if (!headed)
             printf("\n%-*s %12s %16s %16s %16s %16s %22s\n", width, "film", "alone m2", "arrives L/min", "drains L/min",
                    "stands L/min", "astray L/min", "per girth L/min/m");
-        told = true;
+        headed = true;
         char alone[CLI_AMOUNT];
         area_text(&figures[i], film->area, 3, alone);
         printf("%-*s %12s", width, result->designs[i].name, alone);
@@ -216,10 +216,10 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
 /* What goods that move take with them. */
 static void print_dose(const sp_result *result, const sp_figures *figures, int width)
 {
-    for (size_t i = 0, told = 0; i < result->design_count; i++)
+    for (size_t i = 0, listed = 0; i < result->design_count; i++)
         if (isfinite(figures[i].pass))
             printf("%s%-*s dose L/m2: mean %.4g, 5th percentile %.4g, highest %.4g, in a pass of %.4g s\n",
-                   told++ ? "" : "\n", width, result->designs[i].name, 1e3 * figures[i].pass * figures[i].flux_mean,
+                   listed++ ? "" : "\n", width, result->designs[i].name, 1e3 * figures[i].pass * figures[i].flux_mean,
                    1e3 * figures[i].pass * figures[i].flux_p05, 1e3 * figures[i].pass * figures[i].flux_max,
                    figures[i].pass);
 }

@@ -32,7 +32,7 @@ static void print_hit(const sp_tracer *tracer, size_t number, const sp_ray *ray,
 }
 
 /* How much of the file has been read, where it is one; nothing where the rows on the terminal show it. */
-static void tell_share(const cli_options *options, FILE *file)
+static void report_share(const cli_options *options, FILE *file)
 {
     struct stat status;
     bool known = fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
@@ -49,7 +49,7 @@ static bool trace_file(cli_rays *reader, const sp_tracer *tracer, const cli_opti
     if (!good)
         sp_fail_memory(error);
     while (good && (good = cli_rays_read(reader, rays, BATCH, &count, error)) && count) {
-        tell_share(options, reader->file);
+        report_share(options, reader->file);
         sp_trace_nearest_many(tracer, rays, count, options->gravity, options->threads, hits);
         if (total == 0)
             printf("%s", options->json ? "{\"sprayplan\": \"" SP_VERSION "\", \"command\": \"trace\", \"hits\": [\n"

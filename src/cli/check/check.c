@@ -22,7 +22,7 @@ static bool measure_parts(cli_findings *found, sp_error *error)
 }
 
 /* Inside out is what is turned round in view of the cavity, a room around it not; without one nothing is turned, and
- * what the mesh alone tells is told. */
+ * what the mesh alone shows is reported. */
 static void judge_shells(cli_findings *found)
 {
     sp_geometry_account account = sp_evaluator_account(found->opened->evaluator);
@@ -31,12 +31,12 @@ static void judge_shells(cli_findings *found)
 }
 
 /* Boxes in the coordinates of the scene's file. */
-static void tell_boxes(cli_findings *found)
+static void move_boxes_outside(cli_findings *found)
 {
     const sp_setup *setup = cli_findings_setup(found);
     found->mesh.minimum = sp_setup_outside(setup, found->mesh.minimum);
     found->mesh.maximum = sp_setup_outside(setup, found->mesh.maximum);
-    cli_flaws_tell(setup, &found->mesh);
+    cli_flaws_outside(setup, &found->mesh);
     for (size_t i = 0; i < setup->mesh->part_count; i++) {
         found->part_box[i].minimum = sp_setup_outside(setup, found->part_box[i].minimum);
         found->part_box[i].maximum = sp_setup_outside(setup, found->part_box[i].maximum);
@@ -52,7 +52,7 @@ static bool examine(const cli_options *options, cli_findings *found, sp_error *e
         !sp_mesh_diagnose(cli_findings_setup(found)->mesh, &found->mesh, error))
         return false;
     judge_shells(found);
-    tell_boxes(found);
+    move_boxes_outside(found);
     if (!cli_findings_warn(found, error) || !cli_write_wet(options, found->opened, error) ||
         !cli_repair_write(options, found->opened->scene, &found->repair, error))
         return false;

@@ -1,4 +1,4 @@
-/* What `check` finds in a scene, and how it is told. */
+/* What `check` finds in a scene, and how it is reported. */
 #ifndef CLI_FINDINGS_H
 #define CLI_FINDINGS_H
 
@@ -32,7 +32,7 @@ static inline const sp_setup *cli_findings_setup(const cli_findings *found)
 }
 
 /* A point of the evaluator's in the coordinates of the scene's file. */
-static inline sp_vec3 cli_findings_told(const cli_findings *found, sp_vec3 point)
+static inline sp_vec3 cli_findings_outside(const cli_findings *found, sp_vec3 point)
 {
     return sp_setup_outside(cli_findings_setup(found), point);
 }

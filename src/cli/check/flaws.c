@@ -31,7 +31,7 @@ static sp_flaw *flaw_of(sp_mesh_diagnosis *mesh, size_t kind)
     return (sp_flaw *)((char *)mesh + kinds[kind].offset);
 }
 
-static const sp_flaw *told_flaw_of(const sp_mesh_diagnosis *mesh, size_t kind)
+static const sp_flaw *const_flaw_of(const sp_mesh_diagnosis *mesh, size_t kind)
 {
     return (const sp_flaw *)((const char *)mesh + kinds[kind].offset);
 }
@@ -41,7 +41,7 @@ static size_t places_of(const sp_flaw *flaw)
     return flaw->count < SP_PLACES ? flaw->count : SP_PLACES;
 }
 
-void cli_flaws_tell(const sp_setup *setup, sp_mesh_diagnosis *mesh)
+void cli_flaws_outside(const sp_setup *setup, sp_mesh_diagnosis *mesh)
 {
     for (size_t kind = 0; kind < KINDS; kind++) {
         sp_flaw *flaw = flaw_of(mesh, kind);
@@ -54,7 +54,7 @@ bool cli_flaws_print(const sp_mesh_diagnosis *mesh)
 {
     bool any = false;
     for (size_t kind = 0; kind < KINDS; kind++) {
-        const sp_flaw *flaw = told_flaw_of(mesh, kind);
+        const sp_flaw *flaw = const_flaw_of(mesh, kind);
         if (!flaw->count && !flaw->more)
             continue;
         if (!any)
@@ -75,7 +75,7 @@ void cli_flaws_print_change(const sp_mesh_diagnosis *before, const sp_mesh_diagn
 {
     bool any = false;
     for (size_t kind = 0; kind < KINDS; kind++) {
-        const sp_flaw *was = told_flaw_of(before, kind), *is = told_flaw_of(after, kind);
+        const sp_flaw *was = const_flaw_of(before, kind), *is = const_flaw_of(after, kind);
         if (!was->count && !was->more && !is->count && !is->more)
             continue;
         if (!any)
@@ -91,7 +91,7 @@ json_t *cli_flaws_json(const sp_mesh_diagnosis *mesh)
 {
     json_t *all = json_object();
     for (size_t kind = 0; kind < KINDS; kind++) {
-        const sp_flaw *flaw = told_flaw_of(mesh, kind);
+        const sp_flaw *flaw = const_flaw_of(mesh, kind);
         json_t *places = json_array();
         for (size_t i = 0; i < places_of(flaw); i++)
             json_array_append_new(places, json_pack("[fff]", flaw->place[i].x, flaw->place[i].y, flaw->place[i].z));

@@ -7,7 +7,7 @@
 #include <jansson.h>
 
 /* Places in the coordinates of the scene's file. */
-void cli_flaws_tell(const sp_setup *setup, sp_mesh_diagnosis *mesh);
+void cli_flaws_outside(const sp_setup *setup, sp_mesh_diagnosis *mesh);
 /* Those that there are; false where there are none. */
 bool cli_flaws_print(const sp_mesh_diagnosis *mesh);
 /* Those that there were or are, before and after something. */

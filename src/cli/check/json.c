@@ -54,7 +54,7 @@ static json_t *hollows_json(const cli_findings *found)
     const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
     json_t *list = json_array();
     for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = cli_findings_told(found, hollows[i].place);
+        sp_vec3 p = cli_findings_outside(found, hollows[i].place);
         json_array_append_new(list, json_pack("{s:[fff], s:f, s:b}", "place_m", p.x, p.y, p.z, "area_m2",
                                               hollows[i].area, "drains", (int)hollows[i].drains));
     }

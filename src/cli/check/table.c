@@ -21,7 +21,7 @@ static void print_cavity(const cli_findings *found)
         printf("cavity      outside: sides that face the space around the geometry\n");
     else {
         char point[CLI_POINT];
-        cli_point_text(cli_findings_told(found, setup->cavity_point), cli_findings_step(found), " m", point);
+        cli_point_text(cli_findings_outside(found, setup->cavity_point), cli_findings_step(found), " m", point);
         printf("cavity      sides that face the space of [%s]\n", point);
     }
 }
@@ -95,7 +95,7 @@ static void print_hollows(const cli_findings *found)
         printf("\n%-36s %12s  %s\n", "hollow or flat at m", "area m2", "drains");
     for (size_t i = 0; i < count; i++) {
         char place[CLI_POINT], bracketed[CLI_POINT + 2];
-        cli_point_text(cli_findings_told(found, hollows[i].place), cli_findings_step(found), "", place);
+        cli_point_text(cli_findings_outside(found, hollows[i].place), cli_findings_step(found), "", place);
         snprintf(bracketed, sizeof bracketed, "[%s]", place);
         printf("%-36s %12.4g  %s\n", bracketed, hollows[i].area, hollows[i].drains ? "over its rim" : "not at all");
     }

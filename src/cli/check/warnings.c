@@ -62,14 +62,14 @@ static void warn_of_size(cli_findings *found)
 static void warn_of_texel(cli_findings *found)
 {
     char text[CLI_LONG_TEXEL];
-    if (cli_tell_long_texel(sp_scene_setup(found->opened->scene), text))
+    if (cli_warn_of_long_texel(sp_scene_setup(found->opened->scene), text))
         warn(found, "%s", text);
 }
 
 static void warn_of_criterion(cli_findings *found)
 {
     char text[CLI_LARGE_THRESHOLD];
-    if (cli_tell_large_threshold(sp_scene_setup(found->opened->scene), text))
+    if (cli_warn_of_large_threshold(sp_scene_setup(found->opened->scene), text))
         warn(found, "%s", text);
 }
 
@@ -97,7 +97,7 @@ static void warn_of_cad(cli_findings *found)
 static void warn_of_cavity(cli_findings *found)
 {
     const sp_setup *setup = cli_findings_setup(found);
-    sp_vec3 p = cli_findings_told(found, setup->cavity_point), low = found->mesh.minimum, high = found->mesh.maximum;
+    sp_vec3 p = cli_findings_outside(found, setup->cavity_point), low = found->mesh.minimum, high = found->mesh.maximum;
     if (setup->cavity == SP_CAVITY_POINT &&
         (p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y || p.z > high.z))
         warn(found, "cavity: the point lies outside the geometry's box: what is counted is what faces it from there");
@@ -133,7 +133,7 @@ static void warn_of_caps(cli_findings *found)
     for (size_t i = 0; i < setup->cap_count; i++) {
         sp_cap_use use = sp_evaluator_cap_use(found->opened->evaluator, i);
         char point[CLI_POINT];
-        cli_point_text(cli_findings_told(found, setup->caps[i].point), cli_findings_step(found), " m", point);
+        cli_point_text(cli_findings_outside(found, setup->caps[i].point), cli_findings_step(found), " m", point);
         if (use != SP_CAP_SHUTS)
             warn(found, "caps: the one at [%s] shuts nothing: %s", point,
                  use == SP_CAP_DRY ? "no liquid comes to it" : "liquid passes round its rim");
@@ -146,7 +146,7 @@ static void warn_of_hollows(cli_findings *found)
     const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
     for (size_t i = 0; i < count && !hollows[i].drains; i++) {
         char place[CLI_POINT];
-        cli_point_text(cli_findings_told(found, hollows[i].place), cli_findings_step(found), " m", place);
+        cli_point_text(cli_findings_outside(found, hollows[i].place), cli_findings_step(found), " m", place);
         warn(found, "film: what runs down to [%s] stands there: is a drain missing?", place);
     }
 }
@@ -160,7 +160,7 @@ static bool is_doubled(const sp_layout *layout, size_t i)
     return earlier < i;
 }
 
-/* Of the port that holds both the breach is told. */
+/* Of the port that holds both the breach is reported. */
 static bool share_port(const cli_findings *found, const sp_nozzle *a, const sp_nozzle *b)
 {
     const sp_setup *setup = sp_scene_setup(found->opened->scene);
@@ -215,8 +215,8 @@ bool cli_findings_warn(cli_findings *found, sp_error *error)
     warn_of_hollows(found);
     if (!warn_of_nozzles(found, error))
         return false;
-    cli_tell_port_breaches(found->opened, warn_of_mount, found);
-    cli_tell_kept_beyond_limits(found->opened, warn_of_mount, found);
+    cli_warn_of_port_breaches(found->opened, warn_of_mount, found);
+    cli_warn_of_kept_limits(found->opened, warn_of_mount, found);
     return !sp_scene_has_place(found->opened->scene) ||
-           cli_tell_idle_mounts(found->opened, warn_of_mount, found, error);
+           cli_warn_of_idle_mounts(found->opened, warn_of_mount, found, error);
 }
