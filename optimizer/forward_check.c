@@ -10,7 +10,7 @@ static const uint64_t jets_flown[] = {500000, 2000000, 8000000};
 #define PATCHES_MOST 20000.0
 #define SHARE_LEAST 0.25 /* of the jets */
 #define MUCH_BETTER 0.5  /* of the tolerance */
-#define TELLS 0.005
+#define TOLERANCE_LEAST 0.005
 #define SECONDS 1
 
 /* What hits alone cover: jets know nothing of film. */
@@ -30,7 +30,7 @@ static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, c
                     uint64_t jets, sp_forward_check *check)
 {
     double hit = hit_share(forward), difference = hit - hit_share(inverse);
-    double tolerance = fmax(TELLS, sp_evaluator_fidelity(evaluator)->accuracy);
+    double tolerance = fmax(TOLERANCE_LEAST, sp_evaluator_fidelity(evaluator)->accuracy);
     *check = (sp_forward_check){.computed = true,
                                 .texels = sp_evaluator_patches(evaluator)->count,
                                 .jets = jets,

@@ -222,20 +222,20 @@ static void allow_thrown_back(size_t patches, sp_reason *reasons)
             reasons[p] = SP_REASON_ATTAINABLE;
 }
 
-/* By fields what closed forms do not tell, and why not where that is more to ask. */
+/* By fields what closed forms do not show, and why not where that is more to ask. */
 static bool ask_fields(const sp_reckoning *reckoning, sp_deadline *deadline, sp_reason *reasons, sp_error *error)
 {
     const sp_evaluator *fine = reckoning->fine;
     const sp_search *search = reckoning->search;
-    bool moves = sp_evaluator_setup(fine)->sweep.speed > 0, whole, told = true;
+    bool moves = sp_evaluator_setup(fine)->sweep.speed > 0, whole, explained = true;
     if (!sp_attain_by_fields(fine, search, reckoning->scopes, deadline, reasons, &whole, error))
         return false;
     /* without the fields it is not known what is dry */
-    if (moves && whole && !sp_moving_goods_reasons(fine, search, deadline, reasons, &told, error))
+    if (moves && whole && !sp_moving_goods_reasons(fine, search, deadline, reasons, &explained, error))
         return false;
     if (!moves && !sp_bounces(fine, search, deadline, reasons, error))
         return false;
-    if (!whole || !told)
+    if (!whole || !explained)
         sp_deadline_cut(deadline, "attainable");
     doubt(search, whole, sp_evaluator_patches(fine)->count, reasons);
     return true;

@@ -6,7 +6,7 @@
 
 #define ROUNDS 3        /* of looking at the settings beside those of the best layout */
 #define SPARE 5e-3      /* of the target: about as much is lost where a layout is set */
-#define SET_WITHIN 1e-6 /* of a step, for what is at a setting: places are rounded where they are told */
+#define SET_WITHIN 1e-6 /* of a step, for what is at a setting: places are rounded where they are written */
 
 typedef enum { SETTING_DEPTH, SETTING_TILT, SETTING_ANGLE, SETTING_FLOW, SETTINGS } sp_setting;
 

@@ -31,7 +31,7 @@ typedef struct {
     sp_smooth_link *links;
     sp_smooth_film film;                                /* of no nozzles where film is not asked for */
     double *chunk_cost, *chunk_gradient, *chunk_normal; /* [SP_SMOOTH_CHUNKS][1], [][unknowns], [][unknowns²] */
-    sp_error *error; /* of the solver, which does not know why residuals are missing: what is told first stays */
+    sp_error *error; /* of the solver, which does not know why residuals are missing: what is reported first stays */
 } sp_smooth_objective;
 
 /* From the nozzles' arrivals and films as they are set, sums cost and, where slopes are asked for, gradient and the

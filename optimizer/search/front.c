@@ -229,12 +229,12 @@ static bool keep(sp_front *front, const sp_search *search, const sp_partial *par
 
 bool sp_front_settle(sp_front *front, const sp_search *search, sp_error *error)
 {
-    double told = SP_COVERAGE_TOLD * sp_evaluator_patches(front->fine)->total_area;
+    double resolution = SP_COVERAGE_TOLD * sp_evaluator_patches(front->fine)->total_area;
     if (!front->found || front->objective == SP_OBJECTIVE_MAX_COVERAGE || front->measured.area >= front->target)
         return true;
     for (size_t i = 0; i < front->by_water.count; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];
-        if (entry->point.area >= front->measured.area - told)
+        if (entry->point.area >= front->measured.area - resolution)
             return !less_outlay(&entry->point, &front->measured) ||
                    keep(front, search, &entry->partial, &entry->point, error);
     }

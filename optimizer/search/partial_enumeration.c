@@ -128,7 +128,7 @@ static sp_ranks *ranks_of(const enumeration *e)
     return e->deadline->run.ranks;
 }
 
-static void tell_path(const path *p, sp_outgoing *outgoing)
+static void pack_path(const path *p, sp_outgoing *outgoing)
 {
     sp_pack(outgoing, &p->count, sizeof p->count);
     sp_pack(outgoing, p->row, p->count * sizeof *p->row);
@@ -136,7 +136,7 @@ static void tell_path(const path *p, sp_outgoing *outgoing)
     sp_pack(outgoing, p->covered, p->count * sizeof *p->covered);
 }
 
-static void hear_path(sp_gathered *gathered, size_t rank, path *p)
+static void unpack_path(sp_gathered *gathered, size_t rank, path *p)
 {
     size_t count;
     if (sp_unpack(gathered, rank, &count, sizeof count) && count <= SP_SELECTION_MOST &&
@@ -153,12 +153,12 @@ static bool share_paths(enumeration *e, size_t from, sp_error *error)
     sp_gathered gathered;
     for (size_t i = from; i < e->path_count; i++)
         if (sp_ranks_mine(ranks_of(e), i))
-            tell_path(&e->paths[i], &outgoing);
+            pack_path(&e->paths[i], &outgoing);
     if (!sp_ranks_gather(ranks_of(e), "paths", &outgoing, &gathered, error))
         return false;
     for (size_t i = from; i < e->path_count; i++)
         if (!sp_ranks_mine(ranks_of(e), i))
-            hear_path(&gathered, sp_ranks_owner(ranks_of(e), i), &e->paths[i]);
+            unpack_path(&gathered, sp_ranks_owner(ranks_of(e), i), &e->paths[i]);
     sp_gathered_free(&gathered);
     return true;
 }

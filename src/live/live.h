@@ -72,7 +72,7 @@ typedef enum {
 } sp_live_result;
 #define SP_LIVE_LEG_NUMBERS 8
 #define SP_LIVE_SHADOW_NUMBERS 6
-#define SP_LIVE_SHADOWS 10 /* the largest are told */
+#define SP_LIVE_SHADOWS 10 /* the largest are reported */
 
 typedef enum {
     SP_LIVE_COVERAGE,     /* a fraction */

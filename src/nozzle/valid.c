@@ -83,7 +83,7 @@ bool sp_type_is_valid(const sp_nozzle_type *type, sp_error *error)
     return true;
 }
 
-static bool tells_flow(const sp_nozzle_type *type, sp_error *error)
+static bool is_flow_valid(const sp_nozzle_type *type, sp_error *error)
 {
     const sp_limit limits[] = {
         sp_from_to("flow", "m3/s", type->flow, 0, SP_FINITE),
@@ -93,7 +93,7 @@ static bool tells_flow(const sp_nozzle_type *type, sp_error *error)
     return sp_are_within(of_type(type), limits, sizeof limits / sizeof *limits, error);
 }
 
-static bool tells_speed(const sp_nozzle_type *type, sp_error *error)
+static bool is_speed_valid(const sp_nozzle_type *type, sp_error *error)
 {
     const sp_limit cv = sp_from_to("cv", "", type->cv, 0, 1);
     return sp_are_within(of_type(type), &cv, 1, error);
@@ -101,7 +101,7 @@ static bool tells_speed(const sp_nozzle_type *type, sp_error *error)
 
 bool sp_type_is_rated(const sp_nozzle_type *type, sp_error *error)
 {
-    return tells_flow(type, error) && tells_speed(type, error);
+    return is_flow_valid(type, error) && is_speed_valid(type, error);
 }
 
 static bool has_type(const sp_nozzle *nozzle, sp_error *error)
@@ -127,8 +127,8 @@ bool sp_nozzle_is_valid(const sp_nozzle *nozzle, sp_error *error)
         sp_from_to("roll", "rad", nozzle->roll, -SP_FINITE, SP_FINITE),
     };
     return sp_are_within(owner, limits, sizeof limits / sizeof *limits, error) &&
-           (nozzle->flow > 0 || tells_flow(nozzle->type, error)) &&
-           (nozzle->speed > 0 || tells_speed(nozzle->type, error)) &&
+           (nozzle->flow > 0 || is_flow_valid(nozzle->type, error)) &&
+           (nozzle->speed > 0 || is_speed_valid(nozzle->type, error)) &&
            sp_is_place(owner, "position", nozzle->position, error) &&
            sp_is_direction(owner, "axis", nozzle->axis, error);
 }

@@ -20,12 +20,12 @@ static const char *judged_besides(const sp_setup *setup)
 static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
     double accuracy = sp_evaluator_fidelity(evaluator)->accuracy;
-    size_t told = 0;
+    size_t listed = 0;
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_figures *figures = &page->figures[i];
         if (page->result->designs[i].evaluator != evaluator || !isfinite(figures->error_estimate))
             continue;
-        if (!told++)
+        if (!listed++)
             add_item(text, "Measured error");
         else
             sp_text_add(text, "; ");
@@ -39,7 +39,7 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
             sp_text_add(text, ", which is <strong>more than the accuracy of %.3g&nbsp;%%</strong> that was asked for",
                         100 * accuracy);
     }
-    if (told)
+    if (listed)
         sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form%s</dd>\n",
                     judged_besides(sp_evaluator_setup(evaluator)));
 }
@@ -71,7 +71,7 @@ static void add_way(sp_text *text, const sp_setup *setup, sp_trajectory trajecto
 }
 
 /* Whether a nozzle before nozzle `k` of design `i` has its type. */
-static bool is_told(const sp_page *page, const sp_evaluator *evaluator, size_t i, size_t k)
+static bool is_type_repeated(const sp_page *page, const sp_evaluator *evaluator, size_t i, size_t k)
 {
     const sp_nozzle_type *type = page->result->designs[i].layout->nozzles[k].type;
     for (size_t d = 0; d <= i; d++) {
@@ -92,7 +92,7 @@ static void add_own_ways(const sp_page *page, sp_text *text, const sp_evaluator 
         const sp_layout *layout = page->result->designs[i].layout;
         for (size_t k = 0; layout && page->result->designs[i].evaluator == evaluator && k < layout->count; k++) {
             const sp_nozzle_type *type = layout->nozzles[k].type;
-            if (type->trajectory == SP_TRAJECTORY_AUTO || is_told(page, evaluator, i, k))
+            if (type->trajectory == SP_TRAJECTORY_AUTO || is_type_repeated(page, evaluator, i, k))
                 continue;
             sp_text_add(text, any ? ", " : ". Types with a way of their own: ");
             sp_markup_escape(text, type->name);
@@ -141,18 +141,18 @@ static void add_choice(sp_text *text, const sp_evaluator *evaluator)
     const sp_choice *choice = sp_evaluator_choice(evaluator);
     const char *const names[] = {"texels", "jets", "trajectory", "evaluator", "reflections"};
     const char *const why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
-    size_t told = 0;
+    size_t listed = 0;
     for (int k = 0; k < 5; k++) {
         if (!why[k][0])
             continue;
-        if (!told++)
+        if (!listed++)
             add_item(text, "Left to auto");
         else
             sp_text_add(text, "; ");
         sp_text_add(text, "<em>%s</em> ", names[k]);
         sp_markup_escape(text, why[k]);
     }
-    if (told)
+    if (listed)
         sp_text_add(text, "</dd>\n");
 }
 
@@ -202,7 +202,7 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
 }
 
 /* The same of results read from files, of which nothing else is known here, where it is one. */
-static void add_told_criterion(const sp_page *page, sp_text *text)
+static void add_read_criterion(const sp_page *page, sp_text *text)
 {
     size_t count = page->result->design_count;
     bool counted = false;
@@ -332,7 +332,7 @@ static bool share_evaluator(const sp_page *page)
 void sp_page_assumptions(const sp_page *page, sp_text *text)
 {
     sp_text_add(text, "<section id=\"assumptions\"><h2>Assumptions</h2>\n");
-    add_told_criterion(page, text);
+    add_read_criterion(page, text);
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_evaluator *evaluator = page->result->designs[i].evaluator;
         if (!evaluator || first_on(page, evaluator) < i)

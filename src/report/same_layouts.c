@@ -15,11 +15,11 @@ static size_t first_with(const sp_page *page, size_t design)
 
 static void add_group(const sp_page *page, sp_text *text, size_t first)
 {
-    size_t told = 0;
+    size_t listed = 0;
     for (size_t i = first; i < page->result->design_count; ++i) {
         if (first_with(page, i) != first)
             continue;
-        sp_text_add(text, told++ ? ", " : "<p class=\"note\">The same nozzles: ");
+        sp_text_add(text, listed++ ? ", " : "<p class=\"note\">The same nozzles: ");
         sp_page_narrow_name(page, text, i);
     }
     sp_text_add(text, ". What their runs found, each on texels of its own, differs by no more than the errors; the "

@@ -165,7 +165,7 @@ static void add_places(const sp_page *page, sp_text *text, size_t design, const 
 }
 
 /* What the catalogue may say of a type. */
-typedef const char *told(const sp_nozzle_type *type);
+typedef const char *catalogue_entry(const sp_nozzle_type *type);
 
 static const char *order_code(const sp_nozzle_type *type)
 {
@@ -182,11 +182,11 @@ static const char *insert(const sp_nozzle_type *type)
 
 static const struct {
     const char *title;
-    told *of;
+    catalogue_entry *of;
 } sources[] = {{"Order code", order_code}, {"Thread", thread}, {"Insert", insert}};
 enum { SOURCES = sizeof sources / sizeof *sources };
 
-static bool is_told(const sp_fitting_sheet *sheet, size_t source)
+static bool is_given(const sp_fitting_sheet *sheet, size_t source)
 {
     bool any = false;
     for (size_t i = 0; i < sheet->count; ++i)
@@ -211,7 +211,7 @@ static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fit
     add_text(text, "th scope=\"row\"", nozzle->name);
     add_text(text, "td class=\"text\"", nozzle->type->name);
     for (size_t i = 0; i < SOURCES; ++i)
-        if (is_told(sheet, i))
+        if (is_given(sheet, i))
             add_text(text, "td class=\"text\"", sources[i].of(nozzle->type));
     add_number(text, sp_nozzle_cone(nozzle) * 180 / M_PI, sheet->decimals.angle_deg);
     add_pressure(text, sheet, nozzle->pressure);
@@ -226,7 +226,7 @@ static void add_orders(sp_text *text, const sp_fitting_sheet *sheet)
     add_head(text, "Nozzle");
     add_text_head(text, "Type");
     for (size_t i = 0; i < SOURCES; ++i)
-        if (is_told(sheet, i))
+        if (is_given(sheet, i))
             add_text_head(text, sources[i].title);
     add_head(text, "angle&nbsp;&deg;");
     add_head(text, "bar");
@@ -340,7 +340,7 @@ static void add_link(const sp_page *page, sp_text *text, size_t design)
 static void add_whereabouts(const sp_page *page, sp_text *text, sp_fitting_sheet *const *sheets, size_t design)
 {
     const sp_result *result = page->result;
-    size_t told = 0, several = 0;
+    size_t listed = 0, several = 0;
     for (size_t i = 0; i < result->design_count; ++i)
         several += sheets[i] != NULL;
     sp_text_add(text, "<p class=\"note\">");
@@ -351,10 +351,10 @@ static void add_whereabouts(const sp_page *page, sp_text *text, sp_fitting_sheet
     for (size_t i = 0; i < result->design_count; ++i) {
         if (i == design || !sheets[i])
             continue;
-        sp_text_add(text, told++ ? ", " : " Sheets of the others: ");
+        sp_text_add(text, listed++ ? ", " : " Sheets of the others: ");
         add_link(page, text, i);
     }
-    sp_text_add(text, "%s</span></p>", told ? "." : "");
+    sp_text_add(text, "%s</span></p>", listed ? "." : "");
 }
 
 static void add_sheet(const sp_page *page, sp_text *text, sp_fitting_sheet *const *sheets, size_t design, bool turns)

@@ -85,9 +85,13 @@ static double largest(const sp_figures *f)
 typedef struct {
     const char *title, *unit;
     measure *value;
-    enum { DECIMALS, SIGNIFICANT, WATER } told; /* percentages and counts with decimals, most with significant digits */
-    int digits;                                 /* of the first two */
-    bool points;                                /* differences in percentage points */
+    enum {
+        DECIMALS,
+        SIGNIFICANT,
+        WATER
+    } format;    /* percentages and counts with decimals, most with significant digits */
+    int digits;  /* of the first two */
+    bool points; /* differences in percentage points */
 } row;
 
 static const row rows[] = {
@@ -116,9 +120,9 @@ static void add_value(const sp_page *page, sp_text *text, const row *r, size_t d
 {
     const sp_figures *figures = &page->figures[design];
     sp_text_add(text, "<td%s>", sp_page_column(page, design));
-    if (r->told == WATER)
+    if (r->format == WATER)
         sp_markup_water(text, r->value(figures));
-    else if (r->told == DECIMALS)
+    else if (r->format == DECIMALS)
         sp_markup_decimals(text, r->value(figures), r->digits);
     else
         sp_markup_significant(text, r->value(figures), r->digits);
@@ -144,8 +148,8 @@ static void add_difference(sp_text *text, const row *r, double from, double to)
     sp_text_add(text, "</td>");
 }
 
-/* The proposal is told against the manual layout in a column of its own. */
-static bool tells_difference(const sp_page *page)
+/* The proposal is held against the manual layout in a column of its own. */
+static bool shows_difference(const sp_page *page)
 {
     return page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual;
 }
@@ -162,7 +166,7 @@ static void add_row(const sp_page *page, sp_text *text, size_t first, size_t end
                 r->unit, r->unit[0] ? "</span>" : "");
     for (size_t i = first; i < end; ++i)
         add_value(page, text, r, i);
-    if (tells_difference(page) && end == page->result->design_count)
+    if (shows_difference(page) && end == page->result->design_count)
         add_difference(text, r, r->value(&page->figures[page->manual]), r->value(&page->figures[page->main]));
     sp_text_add(text, "</tr>\n");
 }
@@ -171,7 +175,7 @@ static void add_figures(const sp_page *page, sp_text *text, size_t first, size_t
 {
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers\">\n<thead><tr><th scope=\"col\">Measure</th>");
     sp_page_columns(page, text, first, end);
-    if (tells_difference(page) && end == page->result->design_count)
+    if (shows_difference(page) && end == page->result->design_count)
         sp_text_add(text, "<th scope=\"col\">Proposed against manual</th>");
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
@@ -244,14 +248,14 @@ static bool has_codes(const sp_figures *figures)
 /* What cannot be built as it is. */
 static void add_overlaps(sp_text *text, const sp_figures *figures)
 {
-    size_t told = 0;
+    size_t listed = 0;
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         if (!figures->nozzles[i].overlap[0])
             continue;
-        sp_text_add(text, told++ ? "; " : "<p class=\"warning\">");
+        sp_text_add(text, listed++ ? "; " : "<p class=\"warning\">");
         sp_markup_escape(text, figures->nozzles[i].overlap);
     }
-    if (told)
+    if (listed)
         sp_text_add(text, ".</p>\n");
 }
 

@@ -82,21 +82,21 @@ static bool write_sheets(const sp_result *result, const sp_design *main, sp_outp
 {
     size_t count = 0;
     const char **names = malloc((result->design_count + 1) * sizeof *names);
-    const sp_fitting_sheet **told = malloc((result->design_count + 1) * sizeof(sp_fitting_sheet *));
-    sp_fitting_sheet **sheets = names && told ? sp_fitting_sheets_of(result, error) : sp_fail_memory(error);
+    const sp_fitting_sheet **written = malloc((result->design_count + 1) * sizeof(sp_fitting_sheet *));
+    sp_fitting_sheet **sheets = names && written ? sp_fitting_sheets_of(result, error) : sp_fail_memory(error);
     bool done = sheets != NULL;
     for (size_t i = 0; done && i < result->design_count; ++i) {
         if (!sheets[i])
             continue;
         names[count] = result->designs[i].name;
-        told[count++] = sheets[i];
+        written[count++] = sheets[i];
         if (main == &result->designs[i])
             done = write_text(output, "nozzles.csv", sp_nozzles_csv(sheets[i], error), error);
     }
     if (done && count > (main != NULL))
-        done = write_text(output, SP_ALL_NOZZLES, sp_all_nozzles_csv(told, names, count, error), error);
+        done = write_text(output, SP_ALL_NOZZLES, sp_all_nozzles_csv(written, names, count, error), error);
     sp_fitting_sheets_destroy(sheets, result->design_count);
-    free(told);
+    free(written);
     free(names);
     return done;
 }

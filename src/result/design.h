@@ -1,4 +1,4 @@
-/* Whether a design has all that is told of one: what failed on the way to it left NULL there. */
+/* Whether a design has all that is reported of one: what failed on the way to it left NULL there. */
 #ifndef RESULT_DESIGN_H
 #define RESULT_DESIGN_H
 
@@ -11,7 +11,7 @@ static inline bool sp_design_is_evaluated(const sp_design *design)
 }
 
 /* design_figures.c. False where a design has neither layout and coverage on its evaluator nor figures alone; with an
- * error, unless the one is told already that this came from. Accepts NULL. */
+ * error, unless the one is reported already that this came from. Accepts NULL. */
 bool sp_result_is_whole(const sp_result *result, sp_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* With how many decimals a layout is told to a fitter: what can be set is told as it is set, and what is small as well
- * as what is large. */
+/* With how many decimals a layout is written for a fitter: what can be set is written as it is set, and what is small
+ * as well as what is large. */
 #include "fitting_decimals.h"
 
 #include <sprayplan/result.h>
@@ -10,21 +10,21 @@
 #define L_MIN 6e4        /* per m³/s */
 #define MOST 9
 #define ROUND_OFF 1e-6 /* of the last decimal */
-#define OF_A_STEP 1e-4 /* by which a setting that no decimals tell exactly, such as 1/3 deg, may be told wrong */
+#define OF_A_STEP 1e-4 /* by which a setting that no decimals write exactly, such as 1/3 deg, may be off */
 
-static bool is_told(double value, double parts)
+static bool is_exact(double value, double parts)
 {
     return fabs(value * parts - nearbyint(value * parts)) <= ROUND_OFF;
 }
 
-/* As many more as the settings `from` + k steps need, told in a unit of which `per` make one of SI. */
-static void tell_steps(int *decimals, sp_step step, double from, double per)
+/* As many more as the settings `from` + k steps need, in a unit of which `per` make one of SI. */
+static void add_for_steps(int *decimals, sp_step step, double from, double per)
 {
     double size = per * sp_step_size(step), start = per * from;
     if (!(size > 0))
         return;
     for (double parts = pow(10, *decimals); *decimals < MOST && OF_A_STEP * size * parts < 1; parts *= 10) {
-        if (is_told(size, parts) && is_told(start, parts))
+        if (is_exact(size, parts) && is_exact(start, parts))
             return;
         ++*decimals;
     }
@@ -47,14 +47,14 @@ sp_fitting_decimals sp_fitting_decimals_of(const sp_layout *layout, const sp_set
     sp_fitting_decimals decimals = {
         .mm = sp_told_decimals(MM * sqrt(clean_area(setup)), 0, 4), .deg = 1, .angle_deg = 1, .bar = 2, .l_min = 2};
     for (size_t i = 0; i < mount_count; i++) {
-        tell_steps(&decimals.mm, mounts[i].depth_step, mounts[i].depth_from, MM);
-        tell_steps(&decimals.deg, mounts[i].tilt_step, 0, DEG);
+        add_for_steps(&decimals.mm, mounts[i].depth_step, mounts[i].depth_from, MM);
+        add_for_steps(&decimals.deg, mounts[i].tilt_step, 0, DEG);
     }
     for (size_t i = 0; i < layout->count; i++) {
         const sp_nozzle_type *type = layout->nozzles[i].type;
-        tell_steps(&decimals.angle_deg, type->angle_step, type->angle, DEG);
-        tell_steps(&decimals.bar, type->pressure_step, 0, BAR);
-        tell_steps(&decimals.l_min, type->flow_step, type->flow, L_MIN);
+        add_for_steps(&decimals.angle_deg, type->angle_step, type->angle, DEG);
+        add_for_steps(&decimals.bar, type->pressure_step, 0, BAR);
+        add_for_steps(&decimals.l_min, type->flow_step, type->flow, L_MIN);
     }
     return decimals;
 }

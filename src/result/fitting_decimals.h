@@ -1,4 +1,4 @@
-/* With how many decimals a layout is told to a fitter. */
+/* With how many decimals a layout is written for a fitter. */
 #ifndef RESULT_FITTING_DECIMALS_H
 #define RESULT_FITTING_DECIMALS_H
 

@@ -254,7 +254,7 @@ static bool put_part(json_t *parts, const sp_part_figures *figures)
     return json_array_append_new(parts, part) == 0 && done;
 }
 
-/* Water and what the mounts cost, and that in money; nothing where neither is told. */
+/* Water and what the mounts cost, and that in money; nothing where neither is known. */
 static bool put_price(json_t *layout, const sp_figures *figures)
 {
     if (!isfinite(figures->mount_cost))

@@ -49,7 +49,7 @@ typedef struct {
 } sp_layout_own;
 bool sp_put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, sp_layout_own own);
 
-/* json_proposal.c. What was found and proved, besides the layout. `clean_area`: m², of which shares are told;
+/* json_proposal.c. What was found and proved, besides the layout. `clean_area`: m², of which shares are written;
  * `fittings`: with how many nozzles of each point of the front want one. */
 bool sp_put_proposal(json_t *object, const sp_proposal *proposal, double clean_area, bool fittings);
 

@@ -1,5 +1,5 @@
-/* Values out of a JSON file that may come from a stranger: each is checked, and what is wrong with one is told with its
- * place. All are false then, with the error set. */
+/* Values out of a JSON file that may come from a stranger: each is checked, and what is wrong with one is reported with
+ * its place. All are false then, with the error set. */
 #ifndef RESULT_JSON_READ_H
 #define RESULT_JSON_READ_H
 

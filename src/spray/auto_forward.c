@@ -45,7 +45,7 @@ static bool try_grain(sp_setting_trial *trial, grain grain, sp_error *error)
 }
 
 /* Why, as far as it was left open. */
-static void tell_grain(const sp_setting_trial *trial, double estimate)
+static void explain_grain(const sp_setting_trial *trial, double estimate)
 {
     sp_evaluator *evaluator = trial->evaluator;
     const sp_fidelity *open = &evaluator->setup.fidelity;
@@ -83,7 +83,7 @@ static bool choose_grain(sp_setting_trial *trial, sp_error *error)
         now = next;
     }
     evaluator->choice.missed = !(least <= 0.5 * open->accuracy);
-    tell_grain(trial, least);
+    explain_grain(trial, least);
     grain last = grain_of(evaluator);
     if (last.texel == best.texel && last.jets == best.jets)
         return true;

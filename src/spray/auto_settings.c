@@ -27,7 +27,7 @@ bool sp_setting_trial_at(sp_setting_trial *trial, double texel, sp_error *error)
     sp_fidelity *fidelity = &trial->evaluator->fidelity;
     fidelity->texel = texel;
     if (fidelity->method == SP_METHOD_INVERSE)
-        fidelity->jets = trial->evaluator->setup.fidelity.jets; /* told anew from the texel */
+        fidelity->jets = trial->evaluator->setup.fidelity.jets; /* found anew from the texel */
     return sp_texels_create(trial->evaluator, NULL, error) && sp_setting_trial_run(trial, error);
 }
 
@@ -42,7 +42,7 @@ double sp_shortest_auto_texel(const sp_evaluator *evaluator)
 }
 
 /* As a length, then what was measured of it. */
-static void tell_texel(const sp_setting_trial *trial, const char *what)
+static void explain_texel(const sp_setting_trial *trial, const char *what)
 {
     snprintf(trial->evaluator->choice.texel, SP_WHY, "%s: error within %.2f points of coverage, %.2f %% misjudged",
              what, 100 * trial->measured.estimate, 100 * trial->measured.misjudged);
@@ -62,20 +62,20 @@ static bool choose_texel(sp_setting_trial *trial, sp_error *error)
     }
     if (!sp_setting_trial_at(trial, texel, error))
         return false;
-    double told = texel * fmin(1, accuracy / fmax(trial->measured.misjudged, 1e-300));
-    while ((told < texel || !sp_setting_trial_keeps(trial)) && texel > finest && !sp_setting_trial_late(trial)) {
-        texel = told = fmax(told < texel ? told : SHORTER * texel, finest);
+    double wanted = texel * fmin(1, accuracy / fmax(trial->measured.misjudged, 1e-300));
+    while ((wanted < texel || !sp_setting_trial_keeps(trial)) && texel > finest && !sp_setting_trial_late(trial)) {
+        texel = wanted = fmax(wanted < texel ? wanted : SHORTER * texel, finest);
         if (!sp_setting_trial_at(trial, texel, error))
             return false;
     }
     evaluator->choice.missed = !sp_setting_trial_keeps(trial);
-    tell_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
-                      : texel > finest ? "the coarsest tried that errs by at most half the accuracy"
-                                       : "the finest that auto takes");
+    explain_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
+                         : texel > finest ? "the coarsest tried that errs by at most half the accuracy"
+                                          : "the finest that auto takes");
     return true;
 }
 
-static void tell_method(sp_evaluator *evaluator)
+static void explain_method(sp_evaluator *evaluator)
 {
     const char *why = evaluator->fidelity.method == SP_METHOD_INVERSE ? "inverse: no wall throws liquid back"
                       : evaluator->fidelity.splat == SP_SPLAT_LINEAR  ? "forward: jets alone are shared among texels"
@@ -99,7 +99,7 @@ bool sp_auto_settings(sp_evaluator *evaluator, const sp_layout *layout, sp_error
     sp_setting_trial trial = {.evaluator = evaluator, .layout = layout};
     bool done;
     if (open->method == SP_METHOD_AUTO)
-        tell_method(evaluator);
+        explain_method(evaluator);
     evaluator->stage = "settings";
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
         done = sp_auto_forward(&trial, error);

@@ -65,7 +65,7 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
     return true;
 }
 
-/* By n points; what they take is told as a stage of its own each time, as nobody knows how many will do. */
+/* By n points; what they take is reported as a stage of its own each time, as nobody knows how many will do. */
 static bool compare_by(const sp_evaluator *evaluator, const measuring *m, size_t n, tally *tally, sp_error *error)
 {
     sp_watch watch = sp_watch_start(evaluator, "measured error", n);

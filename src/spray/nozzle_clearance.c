@@ -43,19 +43,19 @@ bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double 
            is_out_of_the_way(evaluator, point, fmax(clearance, touch(evaluator)));
 }
 
-/* It may be the cavity's point that is wrong: where it lies outside of what the nozzle is within, both are told. */
+/* It may be the cavity's point that is wrong: where it lies outside of what the nozzle is within, both are reported. */
 static bool fail_outside(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
     const sp_setup *setup = &evaluator->setup;
     sp_vec3 p = exit->position, point = setup->cavity == SP_CAVITY_POINT ? setup->cavity_point : p;
-    sp_vec3 told = sp_setup_outside(setup, p), from = sp_setup_outside(setup, point);
+    sp_vec3 outside = sp_setup_outside(setup, p), from = sp_setup_outside(setup, point);
     if (sp_is_within(evaluator->low, evaluator->high, p) && !sp_is_within(evaluator->low, evaluator->high, point))
         return sp_fail(
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "cavity: the point (%.12g m, %.12g m, %.12g m) lies outside the geometry's box, and nozzle %s at "
             "[%.6g m, %.6g m, %.6g m] is not in the space around it; expected both in the space where the "
             "liquid flies",
-            from.x, from.y, from.z, exit->name, told.x, told.y, told.z);
+            from.x, from.y, from.z, exit->name, outside.x, outside.y, outside.z);
     uint32_t part = sp_wet_part_around(evaluator->wet, setup->mesh, p);
     if (part != SP_NONE && sp_wet_part_around(evaluator->wet, setup->mesh, point) == SP_NONE)
         return sp_fail(
@@ -63,31 +63,31 @@ static bool fail_outside(const sp_evaluator *evaluator, const sp_nozzle *exit, s
             "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity: it is within part \"%s\", and "
             "the cavity's point [%.6g m, %.6g m, %.6g m] is not; expected both in the space where the liquid "
             "flies",
-            exit->name, told.x, told.y, told.z, setup->mesh->parts[part].name, from.x, from.y, from.z);
+            exit->name, outside.x, outside.y, outside.z, setup->mesh->parts[part].name, from.x, from.y, from.z);
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
                    "where the liquid flies",
-                   exit->name, told.x, told.y, told.z);
+                   exit->name, outside.x, outside.y, outside.z);
 }
 
 /* Where liquid leaves a nozzle. */
 static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
     const sp_tracer *tracer = standing(evaluator);
-    sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
+    sp_vec3 p = exit->position, outside = sp_setup_outside(&evaluator->setup, p);
     if (!is_out_of_the_way(evaluator, p, touch(evaluator)))
         return sp_fail(
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in the way of the goods of the sweep; expected a place "
             "that they pass by",
-            exit->name, told.x, told.y, told.z);
+            exit->name, outside.x, outside.y, outside.z);
     if (!sp_tracer_is_clear(tracer, p, touch(evaluator), SP_NONE)) {
         const sp_mesh *mesh = sp_tracer_mesh(tracer);
         uint32_t triangle = sp_tracer_nearest_triangle(tracer, SP_NONE, p);
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in a wall, part \"%s\"; expected a place clear of "
                        "all surfaces",
-                       exit->name, told.x, told.y, told.z, mesh->parts[mesh->part[triangle]].name);
+                       exit->name, outside.x, outside.y, outside.z, mesh->parts[mesh->part[triangle]].name);
     }
     return sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p) || fail_outside(evaluator, exit, error);
 }

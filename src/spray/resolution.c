@@ -173,7 +173,7 @@ static bool is_laid(const sp_evaluator *evaluator)
 }
 
 /* On such texels as were asked for the files' pages are too short, or their charts too close. */
-static void tell_shorter(sp_evaluator *evaluator, double asked)
+static void take_shorter(sp_evaluator *evaluator, double asked)
 {
     evaluator->fidelity.texel = evaluator->setup.unfolded_texel = evaluator->atlas->texel;
     snprintf(evaluator->choice.texel, SP_WHY, "not the %.4g mm asked for: the files' pages carry no longer ones",
@@ -191,7 +191,7 @@ static bool lay(sp_evaluator *evaluator, sp_error *error)
         !(evaluator->atlas = sp_atlas_of_files(setup->mesh, setup->unfolded, setup->unfolded_count, texel, error)))
         return false;
     if (evaluator->atlas->texel < 0.75 * texel)
-        tell_shorter(evaluator, texel);
+        take_shorter(evaluator, texel);
     for (size_t c = 0; c < evaluator->atlas->chart_count; c++)
         finest = fmin(finest, evaluator->atlas->chart_texel[c]);
     if (fidelity->jets == 0)

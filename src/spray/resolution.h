@@ -12,7 +12,7 @@ double sp_texel_of(const sp_evaluator *evaluator, double texels);
 /* Jets of a nozzle that suffice for texels of this length (m), as far as there is time to trace them. */
 uint64_t sp_jets_for(const sp_evaluator *evaluator, double texel);
 /* Atlas and patches of the evaluator's own lengths, or in proportion to those of `fine`, in place of any there are.
- * Jets that are left open are told from the lengths. Makes charts where there are none that serve these lengths. */
+ * Jets that are left open follow from the lengths. Makes charts where there are none that serve these lengths. */
 bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_error *error);
 void sp_texels_free(sp_evaluator *evaluator);
 

@@ -23,7 +23,7 @@ sp_watch sp_watch_start(const sp_evaluator *evaluator, const char *stage, size_t
                       .asks = evaluator->setup.run.progress && !omp_in_parallel()};
     if (watch.asks)
         ask(&watch);
-    watch.told = watch.asks ? sp_now() : 0;
+    watch.asked = watch.asks ? sp_now() : 0;
     return watch;
 }
 
@@ -38,9 +38,9 @@ bool sp_watch_goes_on(sp_watch *watch, size_t more)
     stopped = watch->stopped;
     if (stopped)
         return false;
-    if (omp_get_thread_num() == 0 && sp_now() - watch->told > PERIOD) {
+    if (omp_get_thread_num() == 0 && sp_now() - watch->asked > PERIOD) {
         ask(watch);
-        watch->told = sp_now();
+        watch->asked = sp_now();
     }
     return true;
 }

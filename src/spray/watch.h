@@ -11,8 +11,8 @@ typedef struct {
     const sp_evaluator *evaluator;
     const char *stage;
     size_t all, done; /* pieces */
-    double told;      /* s, when the caller was asked last */
-    bool asks;        /* else nobody is told, and nothing stops */
+    double asked;     /* s, when the caller was asked last */
+    bool asks;        /* else nobody is asked, and nothing stops */
     bool stopped;
 } sp_watch;
 

@@ -28,7 +28,7 @@ typedef struct {
     const sp_evaluator *own; /* on the setup's own settings */
     const sp_study_options *options;
     sp_clock_reading start;
-    const char *stage;      /* what the user is told */
+    const char *stage;      /* what the user is shown */
     double done, step;      /* of the stage: so far, and what is under way */
     sp_clock_reading since; /* when that began */
     double expected;        /* s that it will take at most; 0: not known */

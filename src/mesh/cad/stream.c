@@ -169,11 +169,11 @@ static bool take_failure(sp_cad_stream *stream, const unsigned char *bytes, size
 static bool take_end(sp_cad_stream *stream, const unsigned char *bytes, size_t size, sp_error *error)
 {
     const sp_cad_totals *totals = &stream->totals;
-    sp_cad_totals told;
-    memcpy(&told, bytes, size);
+    sp_cad_totals sent;
+    memcpy(&sent, bytes, size);
     stream->ended = true;
-    return (stream->fine && told.parts == totals->parts && told.vertices == totals->vertices &&
-            told.triangles == totals->triangles) ||
+    return (stream->fine && sent.parts == totals->parts && sent.vertices == totals->vertices &&
+            sent.triangles == totals->triangles) ||
            broken(stream, "other totals than what came", error);
 }
 

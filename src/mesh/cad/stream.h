@@ -31,7 +31,7 @@ typedef struct {
 } sp_cad_stream;
 
 sp_cad_stream sp_cad_stream_open(const char *path, sp_soup *soup);
-/* The next bytes, however they are cut. False for what does not follow records.h, or for a failure that is told. */
+/* The next bytes, however they are cut. False for what does not follow records.h, or for a failure that is reported. */
 bool sp_cad_stream_take(sp_cad_stream *stream, const void *bytes, size_t size, sp_error *error);
 void sp_cad_stream_clear(sp_cad_stream *stream);
 

@@ -211,8 +211,8 @@ const char *sp_page_colour(const sp_page *page, size_t design)
     return others[design % (sizeof others / sizeof *others)];
 }
 
-/* Layouts of several runs are held against each other by price where all tell theirs, else by water. */
-static bool all_tell_prices(const sp_page *page)
+/* Layouts of several runs are held against each other by price where all have theirs, else by water. */
+static bool all_have_prices(const sp_page *page)
 {
     bool all = true, any = false;
     for (size_t i = 0; i < page->result->design_count; ++i) {
@@ -229,7 +229,7 @@ static void find_roles(sp_page *page)
     page->main = result->design_count == 1 ? 0 : SP_UNKNOWN;
     page->manual = page->greedy = SP_UNKNOWN;
     bool compared = strcmp(result->command, "compare") == 0;
-    page->costly = compared ? all_tell_prices(page) : sp_result_is_costly(result);
+    page->costly = compared ? all_have_prices(page) : sp_result_is_costly(result);
     if (compared)
         return;
     page->alternatives = sp_result_has_alternatives(result);

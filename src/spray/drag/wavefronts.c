@@ -220,7 +220,7 @@ static bool build(sp_wavefronts *fronts, unsigned order, sp_error *error)
     return done || sp_fail_memory(error);
 }
 
-static bool is_told(const sp_wavefronts *fronts, unsigned order)
+static bool is_resolved(const sp_wavefronts *fronts, unsigned order)
 {
     for (size_t i = 0; i < fronts->count; i++)
         if (fronts->terms[i] > order - 2)
@@ -293,7 +293,7 @@ static bool make(sp_wavefronts *fronts, sp_error *error)
         fronts->capacity = 0;
         if (!build(fronts, order, error))
             return false;
-        if (is_told(fronts, order))
+        if (is_resolved(fronts, order))
             break;
     }
     return (find_joints(fronts) && find_bounds(fronts)) || sp_fail_memory(error);

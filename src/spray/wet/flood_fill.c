@@ -50,19 +50,19 @@ uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *h
 {
     const sp_faces *faces = flood->faces;
     if (flood->setup->cap_count && sp_caps_block(flood->setup, line, hit->t))
-        return SP_UNTOLD;
+        return SP_AMBIGUOUS;
     if (hit->triangle == SP_NONE)
         return SP_SKY;
     double facing = sp_dot(sp_triangle_normal(flood->setup->mesh, hit->triangle), line->velocity);
     if (hit->u < ON_EDGE || hit->v < ON_EDGE || 1 - hit->u - hit->v < ON_EDGE || fabs(facing) < ON_EDGE)
-        return SP_UNTOLD;
+        return SP_AMBIGUOUS;
     bool near;
     uint32_t side = 2 * sp_face_at(faces, hit->triangle, hit->u, hit->v, &near) + (facing > 0);
     if (near)
-        return SP_UNTOLD;
+        return SP_AMBIGUOUS;
     if (faces->state[side] == SP_FACE_TOUCHING && faces->stands_for[side] != SP_NONE)
         side = faces->stands_for[side];
-    return faces->state[side] == SP_FACE_FREE ? side : SP_UNTOLD;
+    return faces->state[side] == SP_FACE_FREE ? side : SP_AMBIGUOUS;
 }
 
 static bool note_sight(sp_flood *flood, sp_sight_link sight)
@@ -103,7 +103,7 @@ static bool trace_block(sp_flood *flood, line_block *block)
         done = note_sight(flood, (sp_sight_link){block->side[i], met, (uint32_t)block->line[i]});
         if (met == SP_SKY && flood->setup->cavity == SP_CAVITY_OUTSIDE)
             block->joined += sp_set_join(flood->parent, block->side[i], liquid);
-        else if (met != SP_SKY && met != SP_UNTOLD)
+        else if (met != SP_SKY && met != SP_AMBIGUOUS)
             block->joined += sp_set_join(flood->parent, block->side[i], met);
     }
     block->count = 0;
@@ -217,7 +217,7 @@ static bool join_seen(sp_flood *flood, sp_error *error)
         sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
         uint32_t met = sp_flood_met(flood, &line, &hit);
         touches = touches || starts_on_surface(flood, line);
-        if (met == SP_SKY || met == SP_UNTOLD)
+        if (met == SP_SKY || met == SP_AMBIGUOUS)
             continue;
         seen = true;
         flood->seen[met]++;
@@ -228,11 +228,11 @@ static bool join_seen(sp_flood *flood, sp_error *error)
         join_in_view(flood);
         return true;
     }
-    sp_vec3 told = sp_setup_outside(flood->setup, point);
+    sp_vec3 outside = sp_setup_outside(flood->setup, point);
     return sp_fail(
         error, SP_ERROR_INPUT, NULL, 0, 0,
         "cavity: %s the point (%.12g m, %.12g m, %.12g m); expected a point of the space where the liquid flies",
-        touches ? "a surface goes through" : "no surface is seen from", told.x, told.y, told.z);
+        touches ? "a surface goes through" : "no surface is seen from", outside.x, outside.y, outside.z);
 }
 
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,

@@ -8,7 +8,7 @@
 
 /* What lines of sight met: side `to` of a face, or one of these. */
 #define SP_SKY (SP_NONE - 1)
-#define SP_UNTOLD (SP_NONE - 2) /* an edge, or what is not free */
+#define SP_AMBIGUOUS (SP_NONE - 2) /* an edge, or what is not free */
 
 typedef struct {
     uint32_t from, to;

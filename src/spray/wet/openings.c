@@ -146,7 +146,7 @@ static size_t gather(const sp_flood *flood, seen_opening *known, size_t count, c
 
 static bool is_leaving(const bool *liquid, sp_sight_link sight)
 {
-    return liquid[sight.from] && (sight.to == SP_SKY || (sight.to != SP_UNTOLD && !liquid[sight.to]));
+    return liquid[sight.from] && (sight.to == SP_SKY || (sight.to != SP_AMBIGUOUS && !liquid[sight.to]));
 }
 
 static bool is_staying(const sp_flood *flood, const bool *liquid, sp_sight_link sight)

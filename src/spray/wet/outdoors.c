@@ -62,7 +62,7 @@ static bool begin(indoors *known, sp_error *error)
     }
     size_t all = 0, begun = 0;
     for (size_t i = 0; i < flood->sight_count; i++) {
-        known->lines[flood->sights[i].from] += flood->sights[i].to != SP_UNTOLD;
+        known->lines[flood->sights[i].from] += flood->sights[i].to != SP_AMBIGUOUS;
         sky[flood->sights[i].from] += flood->sights[i].to == SP_SKY;
     }
     for (uint32_t side = 0; side < flood->sides; side++) {
@@ -190,7 +190,7 @@ static bool settle(indoors *known, double bound, sp_error *error)
     known->sight_count = 0;
     for (size_t i = 0; i < known->flood->sight_count; i++) {
         sp_sight_link sight = known->flood->sights[i];
-        if (known->liquid[sight.from] && !known->in[sight.from] && sight.to != SP_UNTOLD)
+        if (known->liquid[sight.from] && !known->in[sight.from] && sight.to != SP_AMBIGUOUS)
             known->sights[known->sight_count++] = sight;
     }
     while (joined > 0) {

@@ -133,14 +133,14 @@ static bool has_open_shell(const sp_wet *wet, const sp_mesh *mesh, uint32_t part
 static bool fail_in_material(const sp_wet *wet, const sp_setup *setup, sp_error *error)
 {
     const sp_mesh *mesh = setup->mesh;
-    sp_vec3 point = setup->cavity_point, told = sp_setup_outside(setup, point);
+    sp_vec3 point = setup->cavity_point, outside = sp_setup_outside(setup, point);
     uint32_t part = sp_wet_part_around(wet, mesh, point);
     bool open = part != SP_NONE && has_open_shell(wet, mesh, part);
     return sp_fail(
         error, SP_ERROR_INPUT, NULL, 0, 0,
         "cavity: the point (%.12g m, %.12g m, %.12g m) lies in the material of part \"%s\"%s; expected a point of the "
         "space where the liquid flies (a room drawn as one shell has its normals inwards)",
-        told.x, told.y, told.z, part == SP_NONE ? "" : mesh->parts[part].name,
+        outside.x, outside.y, outside.z, part == SP_NONE ? "" : mesh->parts[part].name,
         open ? ", or in a hollow of it that cannot be told, since it has open edges" : "");
 }
 

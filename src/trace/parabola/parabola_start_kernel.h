@@ -96,8 +96,8 @@ static inline void cut_curved_lanes(const sp_parabola_queue *queue, start_lanes 
         int64_t usual = (summed <= SP_BVH_SUMMED) & (all <= 1e100) & (most <= SP_BVH_SUMMED) & (way <= 4.2) &
                         (fastest > 1e-100) & (fastest < 1e100);
         /* a first piece that is nowhere says nothing of the next */
-        int64_t told = usual & (inside | (s->later[i] ^ 1));
-        s->fits[i] = told ? inside ? SP_BVH_READY : SP_BVH_NOWHERE : SP_BVH_FAR;
+        int64_t known = usual & (inside | (s->later[i] ^ 1));
+        s->fits[i] = known ? inside ? SP_BVH_READY : SP_BVH_NOWHERE : SP_BVH_FAR;
         lanes->enter[i] = lanes->from[i]; /* of the piece */
         lanes->leave[i] = lanes->to[i];
         lanes->from[i] = from; /* in the box */

@@ -95,15 +95,15 @@ void put_text(uint32_t kind, const std::string &before, const char *text)
 
 class Progress : public Message_ProgressIndicator
 {
-    double told = -1;
+    double reported = -1;
 
   protected:
     void Show(const Message_ProgressScope &, const Standard_Boolean) override
     {
         double done = GetPosition();
-        if (!(done >= told + 0.01))
+        if (!(done >= reported + 0.01))
             return;
-        told = done;
+        reported = done;
         put(SP_CAD_PROGRESS, &done, sizeof done);
         fflush(pipe_out);
     }

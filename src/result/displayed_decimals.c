@@ -1,5 +1,5 @@
-/* How many digits of a value are told. A layout of a small vessel is told as well as one of a large one: decimals that
- * suit the large one would leave a zero of it. */
+/* How many digits of a value are shown. A layout of a small vessel is shown as exactly as one of a large one: decimals
+ * that suit the large one would leave a zero of it. */
 #include <sprayplan/result.h>
 
 #include <math.h>
@@ -14,7 +14,7 @@ int sp_told_decimals(double value, int least, int digits)
     if (!isfinite(size) || size < LEAST)
         return least;
     int decimals = least;
-    /* the smallest number that these decimals tell with as many digits, and what rounds up to it */
+    /* the smallest number that these decimals show with as many digits, and what rounds up to it */
     while (decimals < MOST_DECIMALS && size < pow(10, digits - 1 - decimals) - 0.5 * pow(10, -decimals - 1))
         decimals++;
     return decimals;
@@ -38,7 +38,7 @@ int sp_water_decimals(double l_min)
 
 double sp_water_at_least(double l_min)
 {
-    /* 0.09996 would be told as 0.100, but rounded down is 0.0999 */
+    /* 0.09996 would be shown as 0.100, but rounded down is 0.0999 */
     double parts = pow(10, sp_water_decimals(0.995 * l_min));
     return floor(parts * l_min + ROUND_OFF) / parts;
 }
