@@ -132,31 +132,49 @@ static bool parse_override(const char *text, cli_options *options)
     return true;
 }
 
+static bool parse_output(const char *text, const char **output)
+{
+    *output = text;
+    return *text || wrong("-o", text, "a path");
+}
+
+static bool parse_repair(const char *text, const char **file)
+{
+    *file = text;
+    return cli_names_obj(text) || wrong("--repair", text, "a file name ending in .obj");
+}
+
+/* What the command that takes it reads for itself. */
+static bool keep(const char *text, const char **kept)
+{
+    *kept = text;
+    return true;
+}
+
+static bool set(bool *flag)
+{
+    return *flag = true;
+}
+
 static bool take_option(cli_option_id option, const char *value, cli_options *options)
 {
     switch (option) {
     case CLI_OUTPUT:
-        options->output = value;
-        return *value || wrong("-o", value, "a path");
+        return parse_output(value, &options->output);
     case CLI_JSON:
-        options->json = true;
-        return true;
+        return set(&options->json);
     case CLI_THREADS:
         return parse_threads(value, &options->threads);
     case CLI_TIME_LIMIT:
         return parse_time_limit(value, &options->time_limit);
     case CLI_QUIET:
-        options->quiet = true;
-        return true;
+        return set(&options->quiet);
     case CLI_PROVE:
-        options->prove = true;
-        return true;
+        return set(&options->prove);
     case CLI_NO_LIVE:
-        options->no_live = true;
-        return true;
+        return set(&options->no_live);
     case CLI_FORCE:
-        options->force = true;
-        return true;
+        return set(&options->force);
     case CLI_SET:
         return parse_override(value, options);
     case CLI_UNIT:
@@ -168,33 +186,25 @@ static bool take_option(cli_option_id option, const char *value, cli_options *op
     case CLI_PACK:
         return parse_packing(value, &options->packing);
     case CLI_REUSE:
-        options->reuse = true;
-        return true;
+        return set(&options->reuse);
     case CLI_REPAIR:
-        options->repair = value;
-        return cli_names_obj(value) || wrong("--repair", value, "a file name ending in .obj");
+        return parse_repair(value, &options->repair);
     case CLI_RAYS:
-        options->rays = value;
-        return true;
+        return keep(value, &options->rays);
     case CLI_MODE:
-        options->mode = value;
-        return true;
+        return keep(value, &options->mode);
     case CLI_TRAJECTORY:
-        options->trajectory = value;
-        return true;
+        return keep(value, &options->trajectory);
     case CLI_GRAVITY:
         return parse_gravity(value, &options->gravity);
     case CLI_ACCEL:
         return parse_accelerator(value, &options->accelerator);
     case CLI_SCHEMA:
-        options->schema = true;
-        return true;
+        return set(&options->schema);
     case CLI_HELP_ASKED:
-        options->help = true;
-        return true;
+        return set(&options->help);
     case CLI_VERSION:
-        options->version = true;
-        return true;
+        return set(&options->version);
     }
     return false;
 }

@@ -25,67 +25,79 @@ typedef struct {
 
 static const sp_input read_once = {"<i>.yaml", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"};
 
-static inline int set_up(void **state)
+/* Three layouts in the tank, evaluated. False with an error. */
+static inline bool evaluate_designs(fixture *f, sp_error *error)
 {
-    static fixture f;
-    sp_error error = {0};
-    f.mesh = tank_mesh(48, &error);
-    sp_setup setup = tank_setup(f.mesh, 0.02);
-    f.evaluator = sp_evaluator_create(&setup, &error);
-    f.layouts[0] = sp_layout_create(tank_manual, 3, &error);
-    f.layouts[1] = sp_layout_create(tank_proposed, 3, &error);
-    f.layouts[2] = sp_layout_create(tank_proposed, 4, &error);
-    const char *const names[] = {"manual", "greedy", "proposed"};
+    static const char *const names[] = {"manual", "greedy", "proposed"};
+    f->mesh = tank_mesh(48, error);
+    sp_setup setup = tank_setup(f->mesh, 0.02);
+    f->evaluator = sp_evaluator_create(&setup, error);
+    f->layouts[0] = sp_layout_create(tank_manual, 3, error);
+    f->layouts[1] = sp_layout_create(tank_proposed, 3, error);
+    f->layouts[2] = sp_layout_create(tank_proposed, 4, error);
     for (int i = 0; i < 3; i++) {
-        f.coverages[i] = sp_evaluate(f.evaluator, f.layouts[i], &error);
-        sp_evaluate_balance(f.evaluator, f.layouts[i], f.coverages[i], &error);
-        sp_measure_error(f.evaluator, f.layouts[i], f.coverages[i], SP_TRAJECTORY_AUTO, 1, &f.coverages[i]->measured,
-                         &error);
-        f.contributions[i] = sp_contributions_create(f.evaluator, f.layouts[i], f.coverages[i], &error);
-        f.designs[i] = (sp_design){.name = names[i],
-                                   .evaluator = f.evaluator,
-                                   .layout = f.layouts[i],
-                                   .coverage = f.coverages[i],
-                                   .contributions = f.contributions[i]};
+        f->coverages[i] = sp_evaluate(f->evaluator, f->layouts[i], error);
+        sp_evaluate_balance(f->evaluator, f->layouts[i], f->coverages[i], error);
+        sp_measure_error(f->evaluator, f->layouts[i], f->coverages[i], SP_TRAJECTORY_AUTO, 1,
+                         &f->coverages[i]->measured, error);
+        f->contributions[i] = sp_contributions_create(f->evaluator, f->layouts[i], f->coverages[i], error);
+        f->designs[i] = (sp_design){.name = names[i],
+                                    .evaluator = f->evaluator,
+                                    .layout = f->layouts[i],
+                                    .coverage = f->coverages[i],
+                                    .contributions = f->contributions[i]};
     }
-    if (error.kind != SP_OK) {
-        fprintf(stderr, "%s\n", error.message);
-        return 1;
-    }
-    size_t patches = sp_evaluator_patches(f.evaluator)->count;
+    return error->kind == SP_OK;
+}
+
+/* What the last layout covers is attainable; of the rest there are two reasons why not. */
+static inline void propose(fixture *f)
+{
+    const sp_coverage *coverage = f->coverages[2];
+    size_t patches = sp_evaluator_patches(f->evaluator)->count;
     bool *attainable = malloc(patches);
-    memcpy(attainable, f.coverages[2]->deposits.covered, patches);
+    memcpy(attainable, coverage->deposits.covered, patches);
     sp_reason *reasons = malloc(patches * sizeof *reasons);
     for (size_t i = 0; i < patches; i++)
         reasons[i] = attainable[i] ? SP_REASON_ATTAINABLE : i % 3 ? SP_REASON_SLANTED : SP_REASON_NO_LINE;
     for (int i = 0; i < 3; i++)
-        f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3,
-                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i),
-                                      (size_t)i + 1,
-                                      NAN,
-                                      NAN,
-                                      NAN,
-                                      0,
-                                      f.coverages[2]->flow * (i + 1) / 3};
-    f.stages[0] = (sp_stage){"visibility", 1.25, 2.25};
-    f.stages[1] = (sp_stage){"refine", 2.5, 4.75};
-    f.proposal = (sp_proposal){.layout = f.layouts[2],
-                               .coverage = f.coverages[2],
-                               .greedy = f.layouts[1],
-                               .greedy_coverage = f.coverages[1],
-                               .attainable = attainable,
-                               .reasons = reasons,
-                               .attainable_area = 5,
-                               .asked_area = 99,
-                               .target_area = 50,
-                               .positions = 100,
-                               .candidates = 4000,
-                               .front_count = 3,
-                               .front = f.front,
-                               .by_number_count = 3,
-                               .by_number = f.front,
-                               .stage_count = 2,
-                               .stages = f.stages};
+        f->front[i] = (sp_front_point){.flow = coverage->flow * (i + 1) / 3,
+                                       .area = coverage->covered_area * (0.7 + 0.1 * i),
+                                       .nozzles = (size_t)i + 1,
+                                       .bound = NAN,
+                                       .every_aim_bound = NAN,
+                                       .counted = NAN,
+                                       .outlay = coverage->flow * (i + 1) / 3};
+    f->stages[0] = (sp_stage){"visibility", 1.25, 2.25};
+    f->stages[1] = (sp_stage){"refine", 2.5, 4.75};
+    f->proposal = (sp_proposal){.layout = f->layouts[2],
+                                .coverage = f->coverages[2],
+                                .greedy = f->layouts[1],
+                                .greedy_coverage = f->coverages[1],
+                                .attainable = attainable,
+                                .reasons = reasons,
+                                .attainable_area = 5,
+                                .asked_area = 99,
+                                .target_area = 50,
+                                .positions = 100,
+                                .candidates = 4000,
+                                .front_count = 3,
+                                .front = f->front,
+                                .by_number_count = 3,
+                                .by_number = f->front,
+                                .stage_count = 2,
+                                .stages = f->stages};
+}
+
+static inline int set_up(void **state)
+{
+    static fixture f;
+    sp_error error = {0};
+    if (!evaluate_designs(&f, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    propose(&f);
     f.result = (sp_result){.command = "place",
                            .scene = "vessel <script>alert(1)</script> & \"co\".yaml",
                            .design_count = 3,
