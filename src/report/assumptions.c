@@ -70,20 +70,6 @@ static void add_way(sp_text *text, const sp_setup *setup, sp_trajectory trajecto
                     setup->gravity);
 }
 
-/* Whether a nozzle before nozzle `k` of design `i` has its type. */
-static bool is_type_repeated(const sp_page *page, const sp_evaluator *evaluator, size_t i, size_t k)
-{
-    const sp_nozzle_type *type = page->result->designs[i].layout->nozzles[k].type;
-    for (size_t d = 0; d <= i; d++) {
-        const sp_layout *layout = page->result->designs[d].layout;
-        for (size_t n = 0; layout && page->result->designs[d].evaluator == evaluator && n < (d < i ? layout->count : k);
-             n++)
-            if (layout->nozzles[n].type == type)
-                return true;
-    }
-    return false;
-}
-
 /* Of the designs' types, each once, in their order. */
 static void add_own_ways(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
@@ -92,7 +78,7 @@ static void add_own_ways(const sp_page *page, sp_text *text, const sp_evaluator 
         const sp_layout *layout = page->result->designs[i].layout;
         for (size_t k = 0; layout && page->result->designs[i].evaluator == evaluator && k < layout->count; k++) {
             const sp_nozzle_type *type = layout->nozzles[k].type;
-            if (type->trajectory == SP_TRAJECTORY_AUTO || is_type_repeated(page, evaluator, i, k))
+            if (type->trajectory == SP_TRAJECTORY_AUTO || sp_page_type_repeats(page->result, evaluator, i, k))
                 continue;
             sp_text_add(text, any ? ", " : ". Types with a way of their own: ");
             sp_markup_escape(text, type->name);

@@ -120,6 +120,8 @@ void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
 /* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
 void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
+/* Whether a nozzle before this one, of the designs on the evaluator, is of its type too; its design is one of them. */
+bool sp_page_type_repeats(const sp_result *result, const sp_evaluator *evaluator, size_t design, size_t nozzle);
 /* sheet.c: what to weld, set and order of each design, the main one first. */
 bool sp_page_sheets(const sp_page *page, sp_text *text, sp_error *error);
 /* The id of a design's sheet. */

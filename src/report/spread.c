@@ -17,17 +17,16 @@ static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
     return false;
 }
 
-/* Whether a nozzle before this one, of the designs on an evaluator, is of its type too. */
-static bool is_type_repeated(const sp_result *result, const sp_evaluator *evaluator, size_t design, size_t nozzle)
+bool sp_page_type_repeats(const sp_result *result, const sp_evaluator *evaluator, size_t design, size_t nozzle)
 {
     const sp_nozzle_type *type = result->designs[design].layout->nozzles[nozzle].type;
-    for (size_t i = 0; i <= design; ++i)
-        for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k) {
-            if (i == design && k == nozzle)
-                return false;
-            if (result->designs[i].layout->nozzles[k].type == type)
+    for (size_t i = 0; i <= design; ++i) {
+        const sp_layout *layout = result->designs[i].layout;
+        size_t end = result->designs[i].evaluator != evaluator ? 0 : i < design ? layout->count : nozzle;
+        for (size_t k = 0; k < end; ++k)
+            if (layout->nozzles[k].type == type)
                 return true;
-        }
+    }
     return false;
 }
 
@@ -68,6 +67,6 @@ void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *
                           "the jet passes there is more, and then none");
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k)
-            if (!is_type_repeated(result, evaluator, i, k))
+            if (!sp_page_type_repeats(result, evaluator, i, k))
                 add_images(text, result->designs[i].layout->nozzles[k].type);
 }
