@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #define PLACE_LEAST 0.1 /* of half the range: each move of a place is traced */
-#define SWEEPS_MOST 4   /* at one size of step */
+#define ROUNDS_MOST 4   /* at one size of step */
 #define GAIN_LEAST 1e-6 /* of the area, for a step to count */
 #define HOPELESS 3e-3   /* of the gain: what a new place loses by what was seen from the old one, not to be traced */
 
@@ -108,7 +108,7 @@ bool sp_compass(sp_sights *sights, double first, double least, double water, sp_
     sp_search exact = *sights->search;
     exact.credit = 0;
     bool done = true, on = true;
-    int sweeps = 0;
+    int rounds = 0;
     for (double step = first; done && on && step > least;) {
         bool moved = false;
         /* after all turns the first nozzle is the first again, out of time as well */
@@ -117,10 +117,10 @@ bool sp_compass(sp_sights *sights, double first, double least, double water, sp_
             done = on ? try_nozzle(&exact, sights, water, step, partial, &moved, error)
                       : sp_partial_add(&exact, partial, sp_partial_take(&exact, partial, 0), error);
         }
-        if (moved && ++sweeps < SWEEPS_MOST)
+        if (moved && ++rounds < ROUNDS_MOST)
             continue;
         step /= 2;
-        sweeps = 0;
+        rounds = 0;
     }
     sp_partial_refresh(sights->search, partial);
     return done;

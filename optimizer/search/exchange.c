@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define SWEEPS_MOST 8
+#define ROUNDS_MOST 8
 #define GAIN_LEAST 1e-5  /* of the area, for a replacement: an exchange must end */
 #define OUTLAY_STEP 0.02 /* share of the outlay that a reduction must save */
 
@@ -36,12 +36,12 @@ static bool replace(const sp_search *search, sp_pool_gains *gains, double budget
     return true;
 }
 
-static bool sweep(const sp_search *search, sp_pool_gains *gains, double budget, sp_deadline *deadline,
-                  sp_partial *partial, sp_error *error)
+static bool exchange_rounds(const sp_search *search, sp_pool_gains *gains, double budget, sp_deadline *deadline,
+                            sp_partial *partial, sp_error *error)
 {
     bool done = true, changed = true;
     sp_partial_refresh(search, partial);
-    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_deadline_goes_on(deadline, "exchange", 0); i++) {
+    for (int i = 0; done && changed && i < ROUNDS_MOST && sp_deadline_goes_on(deadline, "exchange", 0); i++) {
         changed = false;
         done = sp_greedy_pool(search, gains, 1, INFINITY, budget, partial, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
@@ -57,8 +57,8 @@ bool sp_improve(const sp_search *search, sp_pool_gains *gains, double budget, sp
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, gains, budget, deadline, partial, error) &&
-                sweep(&exact, gains, budget, deadline, partial, error);
+    bool done = exchange_rounds(search, gains, budget, deadline, partial, error) &&
+                exchange_rounds(&exact, gains, budget, deadline, partial, error);
     sp_partial_refresh(search, partial);
     return done;
 }

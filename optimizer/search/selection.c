@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define GAIN_LEAST 1e-5 /* of the area: less is no reason for an exchange */
-#define SWEEPS_MOST 8
+#define EXCHANGES_MOST 8
 #define ROUNDS_MOST 4
 #define NOISE 1e-12 /* of the area: what adding and taking away may leave of a gain that is none */
 
@@ -298,7 +298,7 @@ void sp_selection_improve(sp_selection *selection, double budget)
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     const float credits[] = {selection->matrix->search->credit, 0};
     for (size_t i = selection->matrix->search->credit > 0 ? 0 : 1; i < 2; i++)
-        for (int sweep = 0; sweep < SWEEPS_MOST; sweep++) {
+        for (int round = 0; round < EXCHANGES_MOST; round++) {
             fill(selection, credits[i], budget);
             if (!exchange(selection, credits[i], budget))
                 break;
