@@ -22,15 +22,16 @@ typedef struct {
 /* Grows regions that face one way (variational shape approximation), lays each flat (study 3.3.2.1, then as rigidly as
  * possible), and joins neighbours while at most 5 % of a chart's area has more than 5 % strain, no two triangles
  * overlap and no side of a box around the chart is longer than `extent` (m, INFINITY for no limit). Developable surface
- * is laid without strain but for round-off. Cuts at open and flipped edges; where more
- * than two triangles meet, those two after two that go on in each other most smoothly stay together. Deterministic;
- * size, place and attitude do not matter but for their round-off. */
+ * is laid without strain but for round-off. Cuts at open and flipped edges; where more than two triangles meet at an
+ * edge, they are paired off, the two that go on in each other most smoothly first, and each pair stays together.
+ * Deterministic; size, place and attitude do not matter but for their round-off. The caller destroys. */
 SP_API sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
 SP_API void sp_charts_destroy(sp_charts *charts);
-/* How far it is around the part that each chart lies on, m: 2π times the chart's area over how far its surface turns
- * about the direction in which it turns most, summed over the edges of the mesh in it (half of those on its rim). That
- * is exact for convex prisms and cylinders and for spheres, whatever they were cut into; the larger the flatter a chart
- * is, INFINITY where it is flat; bends of opposite sense cancel out. [chart_count]; the caller frees. */
+/* The girth, how far it is around the part, of what each chart lies on, m: 2π times the chart's area over how far its
+ * surface turns about the direction in which it turns most, summed over the edges of the mesh in it (half of those on
+ * its rim). That is exact for convex prisms and cylinders and for spheres, whatever they were cut into; the larger the
+ * flatter a chart is, INFINITY where it is flat; bends of opposite sense cancel out. [chart_count]; the caller frees.
+ */
 SP_API double *sp_charts_girth(const sp_charts *charts, const sp_mesh *mesh, sp_error *error);
 
 /* More texels, counted by area, are refused as a unit or a length that cannot be meant: by evaluators and the program.
@@ -61,7 +62,7 @@ typedef struct {
 } sp_seam;
 
 /* Corners of a chart are whole in so many parts of a pixel, a power of two, unless one of its triangles is less than
- * SP_ATLAS_THIN pixels high: far below what any figure tells, and a report's page is told fewer digits. */
+ * SP_ATLAS_THIN pixels high: far finer than any figure shows, and a report's page is given fewer digits. */
 #define SP_ATLAS_PARTS 67108864.0 /* 2^26 */
 #define SP_ATLAS_THIN 1e-6
 

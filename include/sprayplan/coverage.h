@@ -138,8 +138,8 @@ typedef struct {
     double astray;    /* drips on surface that is not wet */
     double held;      /* stands where it cannot drain */
     double area;      /* m² that impact does not cover and film does */
-    double per_girth; /* m²/s: arriving over the length around all wet walls seen from above (their convex hull),
-                       * the measure of rules of thumb; not what the criterion asks for */
+    double per_girth; /* m²/s: `arriving` over the girth of the wet walls, the perimeter of their convex hull seen from
+                       * above, as rules of thumb have it; not what the criterion asks for */
 } sp_film_balance;
 
 /* How far a coverage is off, measured at points (see sp_measure_error); shares of the area. */

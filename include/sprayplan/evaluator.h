@@ -30,7 +30,7 @@ SP_API sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
  *    accuracy, the next is shorter in that proportion: as what is misjudged shrinks about as the texel does, it then
  *    comes to about the accuracy, and may come to a little more. Each further one is 0.7 of the one before
  *  - the trajectory, inverse: lines where against parabolas no more is misjudged than the accuracy, the error is at
- * most half of it and a tenth of the work, as counted, is saved
+ *    most half of it and a tenth of the work, as counted, is saved
  *  - forward: shorter texels where the first impact of few jets on long texels is found to cover too much, more jets
  *    where too little, until its error estimated is at most half the accuracy; in the end the best that was tried
  *  - reflections: as many as it takes until the liquid that still flies can change the coverage by no more than a
@@ -66,14 +66,15 @@ SP_API const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator);
 /* Jets per nozzle that so short a texel wants, where the forward evaluator flies fewer (whether they were asked for or
  * are the most that it chooses itself) and they were not measured to be enough; else 0. */
 SP_API double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
-/* By how many of a nozzle's jets a texel that is just covered is met; its flux is off by about one in their root. */
+/* How many of a nozzle's jets meet a texel that is just covered: its flux is off by about one over their square root,
+ * as a share. */
 SP_API double sp_evaluator_jets_met(const sp_evaluator *evaluator);
 SP_API const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 SP_API const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
-/* m² of a patch that is to be cleaned: all of it, or none where it is only run over. */
+/* m² of a patch that are to be cleaned: all of its area, or 0 where film only runs over it. */
 SP_API double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch);
-/* Whose a patch's surface is: calls `visit` with each piece of it that is to be cleaned, the number of its part and m².
- * A part may come several times. */
+/* To which parts a patch's surface belongs: calls `visit` with each piece of it that is to be cleaned, the number of
+ * its part and m². A part may come several times. */
 typedef void sp_part_visitor(void *user, uint32_t part, double area);
 SP_API void sp_evaluator_part_areas(const sp_evaluator *evaluator, uint32_t patch, sp_part_visitor *visit, void *user);
 SP_API const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
@@ -82,7 +83,7 @@ SP_API const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 SP_API unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
 /* On which sides the point (1-u-v, u, v) of a triangle does. */
 SP_API unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v);
-/* What became of a part's surface, in m². Of closed shells the outer side is told of (of a room's the inner), of sheets
+/* What became of a part's surface, in m². Of closed shells the outer side is counted (of a room's the inner), of sheets
  * both sides, each with its area. Where no cavity is named all is wet, once. */
 typedef struct {
     double wet;      /* faces the liquid */
@@ -94,7 +95,8 @@ typedef struct {
 /* parts: [part_count of the setup's mesh], the caller's. */
 SP_API void sp_evaluator_part_sides(const sp_evaluator *evaluator, sp_part_sides *parts);
 
-/* What was made of all the geometry, sound or not; what only its flood tells is 0 where no cavity is named. */
+/* How the whole geometry was understood, sound or not; what only the flood from the cavity finds is 0 where no cavity
+ * is named. */
 typedef struct {
     size_t left_out;     /* triangles without area */
     bool sides_known;    /* a cavity is named */
@@ -148,18 +150,20 @@ SP_API const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size
 /* Where film may be lost: the mesh's cracks, as sp_mesh_diagnose finds them, and how wide these may be (m). NULL where
  * no film is asked for. Owned by the evaluator. */
 SP_API const sp_flaw *sp_evaluator_cracks(const sp_evaluator *evaluator, double *width);
-/* One thread's memory for what runs down the walls of an evaluator, borrowed, that sp_evaluator_resample made where the
- * criterion asks for film; or for what goods that move take with them, where it asks for a dose. */
+/* What comes of one nozzle's liquid once it has arrived: the film that runs down the walls, where the criterion asks
+ * for film, or the dose that goods which move take with them. Both are linear in the liquid, so that films of several
+ * nozzles add up, and so do doses. It holds one thread's working memory. */
 typedef struct sp_runoff sp_runoff;
-/* NULL on error, also where film does not run from patch to patch and no goods take a dose. */
+/* `walls`, borrowed, is an evaluator that sp_evaluator_resample made. NULL on error, also where film does not run from
+ * patch to patch and no goods take a dose. */
 SP_API sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error);
 /* Accepts NULL. */
 SP_API void sp_runoff_destroy(sp_runoff *runoff);
 /* Where to write what one nozzle brings to each patch, m³/s, [patches]: the runoff's, all 0 at first. */
 SP_API double *sp_runoff_arriving(sp_runoff *runoff);
-/* What comes of it: the film on every patch [patches], in flow per width over what the criterion asks for, of which a
- * solid stream's liquid, all of `flow` (m³/s), spreads over a disc first; or the dose over what is asked for. What
- * arrives is 0 again then. Films of several nozzles add up, and so do doses. */
+/* From what was written there, which is 0 again afterwards: the film on every patch [patches], as flow per width over
+ * what the criterion asks for; or the dose over what is asked for. A solid stream, all of `flow` (m³/s), first spreads
+ * over a disc where it hits. */
 SP_API void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film);
 
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
@@ -267,7 +271,7 @@ SP_API sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_ve
 /* The same of the patches first to end alone, and where film runs from patch to patch of all arrivals, for callers with
  * little memory: it takes no more than SP_REACH_WORK bytes for each of these patches and for each arrival of a cell,
  * the answer included. `known` is NULL, or holds the answer of an earlier call, bit 2 patch + arc (least bits first)
- * set for every arrival: then the same is told again, and nothing is traced but the way to cells. */
+ * set for every arrival: then the same arrivals are found, and only ways to cells are traced. */
 #define SP_REACH_WORK 1024
 SP_API sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
                                          sp_vec3 axis, double half_angle, size_t first, size_t end,

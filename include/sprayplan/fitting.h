@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 /* Decimals of a sheet's numbers: of mm none, of degrees one, of bar and L/min two; more where the steps of its mounts
- * and types need them for what can be set, and of lengths also on a small surface, as sp_place_decimals has it. What
- * mm and deg are of is rounded to them, the rest is only told with them. */
+ * and types need them for what can be set, and of lengths also on a small surface, as sp_place_decimals has it. Values
+ * in mm and deg are rounded to these decimals, the others are only shown with them. */
 typedef struct {
     int mm;                    /* all lengths */
     int deg;                   /* tilt, towards and turn */

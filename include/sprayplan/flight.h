@@ -50,7 +50,7 @@ SP_API sp_drag sp_drag_of(const sp_nozzle *nozzle, const sp_fluid *liquid, const
 SP_API sp_vec3 sp_drag_acceleration(const sp_drag *drag, sp_vec3 velocity, sp_vec3 gravity);
 
 /* All that leaves a point at one speed at once, whatever its direction, moment by moment: the table that flights with
- * drag are found in, told to about 1e-9 of their length. Read only once it is made. */
+ * drag are found in, accurate to about 1e-9 of their length. Constant once it is made. */
 typedef struct sp_wavefronts sp_wavefronts;
 /* `far`: m, no flight is asked for to an end farther off than this. NULL on error. */
 SP_API sp_wavefronts *sp_wavefronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far,

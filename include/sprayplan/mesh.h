@@ -67,17 +67,17 @@ typedef struct {
     sp_vec3 minimum, maximum;    /* box around all vertices in use, m; both zero for an empty mesh */
 } sp_mesh_diagnosis;
 
-/* Reads an OBJ, STL or PLY file (told by its extension in any case; text or binary told by its content), or a CAD file
- * as sp_cad_load does by default. Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any
- * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Polygons are cut into
- * triangles within their outline, seen along Newell's normal: a fan from the first corner where that is right. Returns
- * NULL with file and line for whatever does not follow the format, for indices out of range, numbers that are not
- * finite or beyond 1e30 m, and for files without a triangle of some area. Holds at no time more than ten times the
+/* Reads an OBJ, STL or PLY file (recognised by its extension, upper or lower case; text or binary by its content), or a
+ * CAD file as sp_cad_load does by default. Coordinates are multiplied by `unit` (m per unit of the file). Triangles
+ * before any group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Polygons are cut
+ * into triangles within their outline, seen along Newell's normal: a fan from the first corner where that is right.
+ * Returns NULL with file and line for whatever does not follow the format, for indices out of range, numbers that are
+ * not finite or beyond 1e30 m, and for files without a triangle of some area. Holds at no time more than ten times the
  * file's size and 64 MiB (CAD files have limits of their own): polygons of so few bytes a corner that their mesh would
  * are refused. Names of parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 SP_API sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 /* The same of what is left of a stream, which may be a pipe and stays open; `name` stands for the path in messages.
- * Whether it is PLY, STL or OBJ is told by what it begins with; CAD files are refused. */
+ * PLY, STL and OBJ are recognised by how they begin; CAD files are refused. */
 SP_API sp_mesh *sp_mesh_load_stream(FILE *stream, const char *name, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all

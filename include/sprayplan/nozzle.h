@@ -72,8 +72,8 @@ typedef struct {
 SP_API size_t sp_patternation_layers(const float *values, const float *speeds, size_t columns, size_t rows,
                                      double angle, sp_speed_layer layers[SP_SPEEDS], sp_error *error);
 
-/* How far apart what can be set lies, as it was given: `count` of a unit of `unit` in SI, so that every setting is a
- * short number of these. Count 0: anything can be set. */
+/* The step between settings, as it was given: `count` units, each of `unit` in SI, so that every setting is a short
+ * number in that unit. Count 0: anything can be set. */
 typedef struct {
     double count, unit;
 } sp_step;
@@ -160,13 +160,13 @@ SP_API void sp_layout_destroy(sp_layout *layout);
 /* Whether both are of one type, stand in one place and are aimed and set alike, whatever their names. */
 SP_API bool sp_nozzles_spray_alike(const sp_nozzle *a, const sp_nozzle *b);
 /* Whether the edges of their sprays lie in one place, however much each sprays: both stand in one place, are aimed and
- * shaped alike, and as fast. Only of one type is that known of clusters. */
+ * shaped alike, and as fast. Of clusters that is known only where both are of one type. */
 SP_API bool sp_nozzles_share_edges(const sp_nozzle *a, const sp_nozzle *b, const sp_fluid *liquid);
 /* Whether another nozzle of the layout shares nozzle i's edges and sprays more, or as much and comes before it: where
  * nozzle i meets a criterion alone, so does that one. */
 SP_API bool sp_layout_repeats(const sp_layout *layout, size_t i, const sp_fluid *liquid);
 /* The first nozzle before nozzle i whose body its own overlaps, bodies being balls of their types' diameters about the
- * nozzles' positions; of types that tell none, one in its place up to 1e-6 m. SIZE_MAX for none. `text`: that they
+ * nozzles' positions; where a type has none, one in the same place up to 1e-6 m. SIZE_MAX for none. `text`: that they
  * overlap, as a clause of plain text, "P2 and P5 stand in one place: their bodies overlap"; "" for none. */
 #define SP_OVERLAP_TEXT 240
 SP_API size_t sp_layout_overlap(const sp_layout *layout, size_t i, char text[SP_OVERLAP_TEXT]);
@@ -183,8 +183,8 @@ SP_API double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
 /* The opening angle in force, rad, as sp_spray_create takes it: of what rotates its jet's; of a cluster that of the
  * smallest cone about the body's axis that would hold all its patterns if they had no offsets. */
 SP_API double sp_nozzle_angle(const sp_nozzle *nozzle);
-/* What people are told as its angle, rad: the same, but of what rotates that of the smallest cone about its axis that
- * holds all that it sprays. A jet of 1 deg says nothing of a head that sprays all round. */
+/* The angle that reports show, rad: the same, but of what rotates that of the smallest cone about its axis that holds
+ * all that it sprays. A jet of 1 deg says nothing of a head that sprays all round. */
 SP_API double sp_nozzle_cone(const sp_nozzle *nozzle);
 
 /* The nozzle's frame in world coordinates, right-handed and orthonormal. */

@@ -39,7 +39,7 @@ SP_API double sp_step_nearest(sp_step step, double from, double value, double lo
 
 /* True where the type may be mounted there: a port's own list has it, and its body passes the bore. */
 SP_API bool sp_mount_takes(const sp_mount *mount, const sp_nozzle_type *type);
-/* Index of the mount that a point of the setup lies on, as far as 4e-4 of the geometry's diagonal tells: in a port's
+/* Index of the mount that a point of the setup lies on, to within 4e-4 of the geometry's diagonal: in a port's
  * depth, no farther from a surface than its standoff, on a line, in a box; ports first, then in this order, of one kind
  * the first. SIZE_MAX: none. */
 SP_API size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, sp_vec3 position);
@@ -48,8 +48,8 @@ SP_API size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t 
 SP_API bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
                             sp_error *error);
 
-/* As a fraction of the surface to be cleaned: coverages are told in such steps, and where none reaches what was asked
- * for, layouts that cover so much less than the most count as covering as much. */
+/* The step in which coverages are reported, as a fraction of the surface to be cleaned. Where no layout reaches what
+ * was asked for, those that cover less than the best by no more than this count as covering as much. */
 #define SP_COVERAGE_TOLD 1e-3
 
 /* A layout's outlay is its water and what the mounts of its nozzles cost, but for kept ones, which are there already;
@@ -100,9 +100,9 @@ typedef struct {
     size_t known_count;
     const sp_proposal *const *known; /* borrowed: proposals for the same evaluator and options but for mounts, types,
                                       * pressures, numbers, water, time and memory. What they found is found here, too,
-                                      * as far as it is allowed, at the prices of these mounts: nothing that is told
-                                      * here is worse. Of clusters, and of types that do not spray as densely all over,
-                                      * that holds at poses that are candidates here as well */
+                                      * as far as it is allowed, at the prices of these mounts: nothing that is
+                                      * reported here is worse. Of clusters, and of types that do not spray as densely
+                                      * all over, that holds at poses that are candidates here as well */
     bool mend_kept;                  /* default true: what would mend the shadows of all of `kept` is looked for, too */
     sp_run run;
 } sp_place_options;
@@ -163,7 +163,8 @@ typedef struct {
 } sp_forward_check;
 
 /* What one more nozzle could do for a shadow of a layout, whatever the limits on number and water: the most that was
- * found, not a bound. Which places promise most is told by the search's patches, of which the report's may be finer. */
+ * found, not a bound. The most promising places are chosen on the search's patches, which may be coarser than the
+ * report's. */
 typedef struct {
     sp_nozzle nozzle; /* the candidate found that covers most of it beside the layout; type NULL: none covers any */
     bool in_port;     /* whose name it has */
@@ -232,9 +233,8 @@ struct sp_proposal {
     sp_found *found; /* its layout and those of the fronts, for other options' `known` */
 };
 
-#define SP_MOUNTING_POINTS                                                                                             \
-    100000 /* that all mounts may give together: beyond that a spacing is taken for a mistake                          \
-            */
+/* As many may all mounts give together: beyond that a spacing is taken for a mistake. */
+#define SP_MOUNTING_POINTS 100000
 /* How many mounting points each of the options' mounts gives, into [mount_count] of the caller's: `all`, and the
  * `usable` ones, which are inside the cavity and clear of walls. False, with an error, that names the mount of most
  * points where all give more than SP_MOUNTING_POINTS together, and where memory runs out. */

@@ -32,7 +32,7 @@ SP_API bool sp_ranks_first(void);
 SP_API bool sp_ranks_any(sp_ranks *ranks, bool own);
 /* The others do not answer any more; this one, the first, goes on alone with what it has. */
 SP_API bool sp_ranks_lost(const sp_ranks *ranks);
-/* To be called by a process that has failed, before it leaves: tells all that still work, whose next call fails.
+/* To be called by a process that has failed, before it leaves: of all that still work the next call fails.
  * True where this one is to say what went wrong: of those that failed at the same place the first. */
 SP_API bool sp_ranks_fail(sp_ranks *ranks);
 

@@ -33,7 +33,7 @@ SP_API bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_e
 /* Writes a body for each nozzle of the design, a cylinder that ends in a cone, as binary STL: the cone's tip is the
  * nozzle's position and points along its axis, the length is 1/50 of the geometry's diagonal. In the coordinates and
  * the unit of the scene's first geometry file (mm for STEP and IGES, see sp_setup), so that it fits on that; the header
- * tells the unit. */
+ * names the unit. */
 SP_API bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error);
 /* How long the pictures of the page will take, as large as they are best, s of wall time on this machine as busy as it
  * is, judged by small ones of the first design that has an evaluator; 0 where none has. */

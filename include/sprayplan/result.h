@@ -44,7 +44,8 @@ typedef struct {
     double area, covered; /* m² */
 } sp_part_figures;
 
-/* Share of the surface to be cleaned: less that is beyond the allowed nozzles is no more than texels at edges. */
+/* Share of the surface to be cleaned, from which on it is reported that area lies beyond the allowed nozzles: less is
+ * no more than texels at edges. */
 #define SP_BEYOND_TOLD 0.005
 
 /* What of one part is not attainable. */
@@ -57,7 +58,7 @@ typedef struct {
 typedef struct {
     char *name, *type;                         /* owned */
     char *order_code, *url;                    /* owned; of its type */
-    char *overlap;                             /* owned; as sp_layout_overlap tells, "" for none */
+    char *overlap;                             /* owned; as sp_layout_overlap says, "" for none */
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad (sp_nozzle_cone), Pa, m³/s, m/s */
@@ -121,18 +122,18 @@ SP_API size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_
  * keeps out of reach of them together, m². */
 SP_API size_t sp_missing_after(const sp_figures *figures, sp_reason reason, size_t last, double *area);
 
-/* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not told. */
+/* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not known. */
 SP_API double sp_figures_price(const sp_figures *figures);
 SP_API double sp_figures_money(const sp_figures *figures);
 /* Whether two layouts are of one surface, by its triangles and, up to round-off, its areas. */
 SP_API bool sp_same_surface(const sp_figures *a, const sp_figures *b);
-/* Whether it is told of what surface a layout is; whether all of which it is are of one. */
+/* Whether the figures say on which surface the layout is; whether all that say so are on the same one. */
 SP_API bool sp_figures_tell_surface(const sp_figures *figures);
 SP_API bool sp_figures_share_surface(const sp_figures *figures, size_t count);
-/* Whether all were counted on texels of one length, up to round-off, those that tell none aside. */
+/* Whether all were counted on texels of one length, up to round-off, apart from those that give none. */
 SP_API bool sp_figures_share_texel(const sp_figures *figures, size_t count);
-/* Whether of both layouts the same was asked for, up to round-off, or of neither it is told what; whether it is so of
- * all. */
+/* Whether the same was asked of both layouts, up to round-off, or of neither it is known what; whether that holds of
+ * all of them. */
 SP_API bool sp_same_criterion(const sp_figures *a, const sp_figures *b);
 SP_API bool sp_figures_share_criterion(const sp_figures *figures, size_t count);
 /* Whether nothing is asked of how much arrives, so that one nozzle more would do where what it brings is as asked. */
@@ -163,7 +164,7 @@ typedef struct {
     const double *costs;            /* [layout->count], m³/s; NULL: those of the mounts that its nozzles lie on */
     size_t remedy_count;            /* of its shadows, the largest first */
     const sp_remedy *remedies;      /* [remedy_count] */
-    sp_water_cost water_cost;       /* none where a scene tells none */
+    sp_water_cost water_cost;       /* none where a scene gives none */
     const sp_proposal *alternative; /* that it is, where a scene asks for alternatives; NULL elsewhere */
 } sp_design;
 
@@ -192,10 +193,10 @@ typedef struct {
     const sp_proposal *proposal; /* NULL unless the command is place; of alternatives the best */
     size_t stage_count;          /* stages besides the proposal's own, in order: "load", "atlas", ... */
     const sp_stage *stages;
-    size_t input_count; /* files that were read, 0 where that is not told */
+    size_t input_count; /* files that were read; 0: not known */
     const sp_input *inputs;
     /* For the page's foot alone, so that result.json is the same of the same scene: the command as it was given, and
-     * when. NULL where that is not told. */
+     * when. NULL: not known. */
     const char *command_line, *date;
     /* What there was no time for besides stages of the placement, in words of plain text: "the error of greedy". */
     size_t left_out_count;
@@ -236,18 +237,18 @@ SP_API void sp_result_own_better(const sp_result *result, const sp_figures *figu
 /* True where the coverage of the layouts counts liquid that walls throw back, which search and certificate do not. */
 SP_API bool sp_result_counts_thrown_back(const sp_result *result);
 
-/* Decimals that a value is told with: `least`, or where these would leave fewer than `digits` significant digits of it
- * as many as do, up to 9. `least` of what is not finite, or 0 with all of these. */
+/* Decimals to show a value with: `least`, or as many more as give it `digits` significant digits, 9 at most. `least`
+ * for what is not finite, or rounds to 0 with all 9. */
 SP_API int sp_told_decimals(double value, int least, int digits);
 /* Decimals of places in m, and of areas in m², of the geometry that a layout is in: `least` where its surface to be
- * cleaned is 1 m² or more, and of less as many more as tell places and areas on it as well. */
+ * cleaned is 1 m² or more, and of less as many more as show places and areas on it as exactly. */
 SP_API int sp_place_decimals(const sp_figures *figures, int least);
 SP_API int sp_area_decimals(const sp_figures *figures, int least);
 /* The same of water in L/min: the tenth from 10 L/min on, three significant digits below. */
 SP_API int sp_water_decimals(double l_min);
-/* What is proved that none takes less than, in L/min, rounded down to these decimals. */
+/* A proved lower bound of water, in L/min, rounded down to these decimals. */
 SP_API double sp_water_at_least(double l_min);
-/* What is told as a limit of a part of `whole`: per cent, rounded up to two decimals but for round-off. */
+/* `part` of `whole` as an upper bound: per cent, rounded up to two decimals but for round-off. */
 SP_API double sp_percent_at_most(double part, double whole);
 
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
@@ -257,7 +258,7 @@ SP_API sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 /* What was made of the geometry that an evaluator is on, in clauses of plain text (UTF-8) for readers. */
 typedef struct {
     char text[360];
-    bool doubtful; /* tells of what is not sound, or had to be mended */
+    bool doubtful; /* it is about what is not sound, or had to be mended */
 } sp_geometry_clause;
 #define SP_GEOMETRY_CLAUSES 12
 /* Returns how many. */
@@ -269,7 +270,7 @@ SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_cla
 SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,
- * in numbers that read as just these values where a scene has them with these units, the angle as sp_nozzle_cone tells
+ * in numbers that read as just these values where a scene has them with these units, the angle as sp_nozzle_cone gives
  * it, then what the sheet says, empty where that is nothing:
  * thread,insert,mounting,fitting,depth_mm,standoff_mm,fitting_x_mm,fitting_y_mm,fitting_height_mm,fitting_radius_mm,
  * fitting_azimuth_deg,tip_x_mm,tip_y_mm,tip_height_mm,tip_radius_mm,tip_azimuth_deg,tilt_deg,towards_deg,turn_deg,
@@ -321,7 +322,8 @@ SP_API bool sp_output_supersede(sp_output *output, sp_error *error);
 /* A path to write `name` (no slash in it) to; owned by the output. */
 SP_API const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
 SP_API bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error);
-/* An error that names such a path names the file then that was to be written. NULL is accepted. */
+/* Where the error names a path that sp_output_path gave, it then names the file that was to be written in its place.
+ * Both may be NULL. */
 SP_API void sp_output_tell(const sp_output *output, sp_error *error);
 SP_API bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
 /* A scene for people to edit, as which it begins with the digest of all that follows: a file of that name which is not

@@ -23,7 +23,7 @@ typedef struct sp_scene sp_scene;
 SP_API sp_scene *sp_scene_load(const char *path, sp_error *error);
 /* The same with settings of `simulate:`, `place:` and `report:` overridden, each "simulate.jets=20000" or
  * "place.refine=none"; the value is YAML as it would stand in the file. Errors in an override name it in place of the
- * file. `run`: who is told how far CAD files have been read, and may cancel; NULL for nobody. */
+ * file. `run`: its progress callback is called while CAD files are read, and may cancel; NULL for none. */
 SP_API sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
                                     sp_error *error);
 /* The same of what is left of a stream, which may be a pipe and stays open. `name` stands for the scene's path in
@@ -44,7 +44,7 @@ SP_API bool sp_scene_lists_nozzles(const sp_scene *scene);             /* the fi
 /* What water is worth, `water_cost` of `place:`. */
 #define SP_CURRENCY 4
 typedef struct {
-    double money;               /* per m³/s; 0: not told */
+    double money;               /* per m³/s; 0: not given */
     char currency[SP_CURRENCY]; /* ISO 4217; "" */
 } sp_water_cost;
 SP_API sp_water_cost sp_scene_water_cost(const sp_scene *scene); /* none for NULL */

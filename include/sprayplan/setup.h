@@ -24,17 +24,17 @@ typedef struct {
     bool moves;         /* with the setup's sweep */
 } sp_surface;
 
-/* Goods that are moved through fixed nozzles: all parts that move are, at first, at `from` from where the mesh has
- * them, and at constant speed come to `to`. Every flux is then the mean over the pass, of what stands too, which what
- * moves may shade; what is in flight is taken to see the goods stand still. Which sides are wet, and whether a point
- * lies in the cavity, is decided where the mesh has them. */
+/* Goods that are conveyed past fixed nozzles: all parts that move are at first displaced by `from` from where the mesh
+ * has them, and at constant speed come to be displaced by `to`. Every flux is then the mean over the pass, also that on
+ * parts that stand, which the goods may shade; while liquid flies the goods are taken to stand still. Which sides are
+ * wet, and whether a point lies in the cavity, is decided with the goods where the mesh has them. */
 typedef struct {
     sp_vec3 from, to; /* m; unequal where anything moves */
     double speed;     /* m/s, > 0 where anything moves; 0: nothing does */
 } sp_sweep;
-/* s, of the pass; 0 where nothing moves. What is given as a dose, m³/m², is that times a mean flux. */
+/* Duration of the pass, s; 0 where nothing moves. A dose (m³/m²) is the mean flux times this duration. */
 SP_API double sp_sweep_duration(const sp_sweep *sweep);
-/* m, as far as what moves comes from where the mesh has it; 0 where nothing does. */
+/* The farthest that the goods come from where the mesh has them, m; 0 where nothing moves. */
 SP_API double sp_sweep_reach(const sp_sweep *sweep);
 
 typedef enum {
@@ -53,27 +53,28 @@ typedef struct {
 
 typedef enum { SP_COMBINE_SUM, SP_COMBINE_SINGLE } sp_combine;
 
-/* All must hold; with none (0, 0, π/2) any liquid covers. */
+/* What covers: all conditions must hold; with none (0, 0, π/2) any liquid covers. */
 typedef struct {
     double flux; /* m³/s per m², 0: none; of goods that move the mean over the pass: the dose over its duration */
     double impact_speed; /* m/s, 0: none */
     double incidence;    /* rad, π/2: none */
     sp_combine combine;
-    double film; /* m²/s, 0: none; else as much running down a patch, per width, covers it whatever the others
-                  * say. Needs a cavity and gravity */
+    double film; /* m²/s, 0: none; else a film with this flow per width covers the patch that it runs down, whatever
+                  * the other conditions say. Needs a cavity and gravity */
 } sp_criterion;
 
 typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
 typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;
 
-/* The scene's `simulate:` block; in sp_evaluator_fidelity nothing is left to auto: the texel is then such that all that
- * is cleaned and counted, sides that are wet each for itself, has 100,000 texels, however large what else there is. */
+/* The scene's `simulate:` block. sp_evaluator_fidelity has it with nothing left to auto; of sp_evaluator_create the
+ * texel is then such that the surface to be cleaned, each wet side for itself, has 100,000 texels, however large the
+ * rest is. */
 typedef struct {
     sp_trajectory trajectory;
     sp_method method;
     int reflections; /* -1: auto */
     uint64_t jets;   /* per nozzle, whose patterns share them; 0: auto */
-    double texel;    /* m; 0: auto. Shorter on thin parts: at most an eighth of their girth */
+    double texel;    /* m; 0: auto. Shorter on thin parts: at most an eighth of their girth (sp_charts_girth) */
     sp_splat splat;
     double accuracy; /* points of coverage, as a fraction, 0 to 1 */
     uint64_t seed;
@@ -125,8 +126,8 @@ SP_API sp_setup sp_setup_default(void);
 SP_API bool sp_setup_throws_back(const sp_setup *setup);
 /* A point of the setup (m) in the coordinates that are read and written. */
 SP_API sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point);
-/* The nearest point of the setup (m) that those coordinates tell from others: a layout of such points covers the same
- * when it has been written and read again. */
+/* `point` rounded as writing it in those coordinates and reading it again rounds it, m: where they are far from the
+ * setup's own, they are coarser. A layout of such points covers the same when it has been written and read again. */
 SP_API sp_vec3 sp_setup_told(const sp_setup *setup, sp_vec3 point);
 
 #ifdef __cplusplus

@@ -98,7 +98,7 @@ typedef struct {
  * jets a nozzle and up to eight reflections on the middle texel.
  *
  * With `place` it then runs placements: by texel (4, 2, 1 times), by line, without refinement and with little time,
- * each three times on texels 3 % apart, which tells the luck of the search from what the settings do. They share what
+ * each three times on texels 3 % apart, which parts the luck of the search from what the settings do. They share what
  * is left of the time limit, or seven minutes.
  *
  * `layout` may have no nozzles where there is `place`. NULL with an error; cancelled before the first run has ended,

@@ -1,7 +1,8 @@
-/* How far it is around what a chart lies on. The edges of a mesh hold all of its curvature: each edge turns the surface
- * by the angle between its two triangles, about its own direction, over its length. Summed over a chart as a tensor in
- * the chart's plane (D. Cohen-Steiner and J.-M. Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003)
- * this tells a rod from a sheet that is merely wavy or rough, where bends of opposite sense cancel out. */
+/* The girth of what a chart lies on: how far it is around it. The edges of a mesh hold all of its curvature: each edge
+ * turns the surface by the angle between its two triangles, about its own direction, over its length. Summed over a
+ * chart as a tensor in the chart's plane (D. Cohen-Steiner and J.-M. Morvan, "Restricted Delaunay Triangulations and
+ * Normal Cycle", 2003) this tells a rod from a sheet that is merely wavy or rough, where bends of opposite sense cancel
+ * out. */
 #include "mesh/adjacent.h"
 
 #include <sprayplan/atlas.h>
