@@ -59,7 +59,7 @@ static int close_both(void **state)
     return close_workplace(state);
 }
 
-static void a_click_tells_what_is_there(void **state)
+static void a_click_shows_what_is_there(void **state)
 {
     (void)state;
     skip_without_browser();
@@ -108,7 +108,7 @@ static void boxes_come_and_go(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_click_tells_what_is_there),
+        cmocka_unit_test(a_click_shows_what_is_there),
         cmocka_unit_test(a_page_of_several_textures_looks_the_same),
         cmocka_unit_test(boxes_come_and_go),
     };

@@ -97,7 +97,7 @@ static void a_type_that_passes_is_taken_in_a_narrow_port(void **state)
 }
 
 /* Where no type passes, or one is left in the port as if it were anywhere. */
-static void a_type_that_does_not_pass_is_told_of(void **state)
+static void a_type_that_does_not_pass_is_reported(void **state)
 {
     (void)state;
     skip_unless_evaluating(found);
@@ -111,7 +111,7 @@ static void a_type_that_does_not_pass_is_told_of(void **state)
 }
 
 /* N2 is kept and does not count on the rail, as it does among all. */
-static void too_many_nozzles_are_told_of(void **state)
+static void too_many_nozzles_are_reported(void **state)
 {
     (void)state;
     skip_unless_evaluating(found);
@@ -128,8 +128,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_opens_without_requests_or_messages),
         cmocka_unit_test(a_type_that_passes_is_taken_in_a_narrow_port),
-        cmocka_unit_test(a_type_that_does_not_pass_is_told_of),
-        cmocka_unit_test(too_many_nozzles_are_told_of),
+        cmocka_unit_test(a_type_that_does_not_pass_is_reported),
+        cmocka_unit_test(too_many_nozzles_are_reported),
     };
     return cmocka_run_group_tests(tests, ask_the_page, put_away);
 }

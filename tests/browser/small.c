@@ -26,7 +26,7 @@ static void it_opens_without_requests_or_messages(void **state)
     assert_opened(found);
 }
 
-static void its_water_is_told(void **state)
+static void its_water_is_reported(void **state)
 {
     (void)state;
     skip_unless_evaluating(found);
@@ -47,7 +47,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_opens_without_requests_or_messages),
-        cmocka_unit_test(its_water_is_told),
+        cmocka_unit_test(its_water_is_reported),
     };
     return cmocka_run_group_tests(tests, ask_the_page, put_away);
 }

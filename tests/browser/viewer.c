@@ -163,7 +163,7 @@ static void keys_reach_lists_and_say_what_they_chose(void **state)
     assert_true(json_is_true(json_object_get(found, "named")));
 }
 
-static void the_corner_tells_axes_and_length(void **state)
+static void the_corner_shows_axes_and_length(void **state)
 {
     (void)state;
     skip_without_browser();
@@ -202,7 +202,7 @@ static void expect_figure(const char *text, double value, double step, bool rati
         fail_msg("told %s, expected %g", text, value);
 }
 
-static void a_point_is_told_as_it_is(void **state)
+static void a_point_is_reported_as_it_is(void **state)
 {
     (void)state;
     skip_without_browser();
@@ -338,8 +338,8 @@ int main(void)
         cmocka_unit_test(layers_come_and_go),
         cmocka_unit_test(a_chosen_nozzle_shows_its_jets),
         cmocka_unit_test(keys_reach_lists_and_say_what_they_chose),
-        cmocka_unit_test(the_corner_tells_axes_and_length),
-        cmocka_unit_test(a_point_is_told_as_it_is),
+        cmocka_unit_test(the_corner_shows_axes_and_length),
+        cmocka_unit_test(a_point_is_reported_as_it_is),
         cmocka_unit_test(no_figure_contradicts_the_criterion),
         cmocka_unit_test(keys_turn_and_fit),
         cmocka_unit_test(names_do_not_lie_over_each_other),

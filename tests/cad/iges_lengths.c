@@ -62,7 +62,7 @@ static void a_unit_that_is_known_is_taken(void **state)
     expect_read("1.0,0,2HFT", 0.3048, 0, "");
 }
 
-static void a_unit_in_doubt_is_told(void **state)
+static void a_unit_in_doubt_is_reported(void **state)
 {
     (void)state;
     need_cad();
@@ -75,7 +75,7 @@ static void a_unit_in_doubt_is_told(void **state)
     expect_read("1.0,6,8HMILLIMET", 1, 1, "the unit of length is M by its flag, \"MILLIMET\" by its name: M is taken");
 }
 
-static void a_scale_is_told(void **state)
+static void a_scale_is_reported(void **state)
 {
     (void)state;
     need_cad();
@@ -115,8 +115,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_unit_that_is_known_is_taken),
-        cmocka_unit_test(a_unit_in_doubt_is_told),
-        cmocka_unit_test(a_scale_is_told),
+        cmocka_unit_test(a_unit_in_doubt_is_reported),
+        cmocka_unit_test(a_scale_is_reported),
         cmocka_unit_test(a_flag_that_is_none_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,7 +21,7 @@ static void take_units_away(const char *from, const char *to)
     free(text);
 }
 
-static void what_is_taken_for_mm_is_told(void **state)
+static void what_is_taken_for_mm_is_reported(void **state)
 {
     (void)state;
     need_cad();
@@ -44,7 +44,7 @@ static void what_is_taken_for_mm_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_taken_for_mm_is_told),
+        cmocka_unit_test(what_is_taken_for_mm_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

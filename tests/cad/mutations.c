@@ -254,7 +254,7 @@ static void mutate(const char *what, const char *name, size_t few, size_t many)
     remove(path);
 }
 
-static void damaged_files_are_told(void **state)
+static void damaged_files_are_reported(void **state)
 {
     (void)state;
     need_cad();
@@ -265,6 +265,6 @@ static void damaged_files_are_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(damaged_files_are_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(damaged_files_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,7 +87,7 @@ static void spoil(const char *path)
     free(text);
 }
 
-static void what_is_read_wrong_is_told(void **state)
+static void what_is_read_wrong_is_reported(void **state)
 {
     (void)state;
     need_cad();
@@ -107,7 +107,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball_keeps_its_walls),
         cmocka_unit_test(a_head_keeps_its_edges),
-        cmocka_unit_test(what_is_read_wrong_is_told),
+        cmocka_unit_test(what_is_read_wrong_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

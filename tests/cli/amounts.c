@@ -28,7 +28,7 @@ static void write_scaled(double scale, const char *flow)
     write_file("scaled.yaml", text);
 }
 
-static void check_tells_small_areas_and_flows(void **state)
+static void check_reports_small_areas_and_flows(void **state)
 {
     (void)state;
     write_scaled(1, "0.05 L/min");
@@ -46,7 +46,7 @@ static void check_tells_small_areas_and_flows(void **state)
 }
 
 /* Less than decimals tell. */
-static void what_is_minute_is_told(void **state)
+static void what_is_minute_is_reported(void **state)
 {
     (void)state;
     write_scaled(1e-5, "1e-8 L/min");
@@ -66,7 +66,7 @@ static void what_is_minute_is_told(void **state)
 }
 
 /* A part of 1 mm² in the room, which the room's decimals would tell as nothing; the room's own stay. */
-static void a_small_part_is_told(void **state)
+static void a_small_part_is_reported(void **state)
 {
     (void)state;
     write_file("chip.obj", "v .1 .1 .5\nv .101 .1 .5\nv .101 .101 .5\nv .1 .101 .5\nf 1 2 3 4\n");
@@ -98,7 +98,7 @@ static void write_roofed(int chips)
 }
 
 /* None of the parts out of reach is told as nothing, and those that are not named are counted. */
-static void parts_out_of_reach_are_all_told(void **state)
+static void parts_out_of_reach_are_all_reported(void **state)
 {
     (void)state;
     static const struct {
@@ -125,10 +125,10 @@ static void parts_out_of_reach_are_all_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_tells_small_areas_and_flows),
-        cmocka_unit_test(what_is_minute_is_told),
-        cmocka_unit_test(a_small_part_is_told),
-        cmocka_unit_test(parts_out_of_reach_are_all_told),
+        cmocka_unit_test(check_reports_small_areas_and_flows),
+        cmocka_unit_test(what_is_minute_is_reported),
+        cmocka_unit_test(a_small_part_is_reported),
+        cmocka_unit_test(parts_out_of_reach_are_all_reported),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

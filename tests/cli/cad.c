@@ -167,7 +167,7 @@ static void the_same_as_obj(void **state)
 }
 
 /* What was kept, as JSON and as text. */
-static void check_tells_what_was_kept(void **state)
+static void check_reports_what_was_kept(void **state)
 {
     (void)state;
     need_cad();
@@ -331,7 +331,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(only_its_inside_lid_and_agitator_are_cleaned, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(the_same_as_obj, open_workplace, close_workplace),
-        cmocka_unit_test_setup_teardown(check_tells_what_was_kept, open_workplace, close_workplace),
+        cmocka_unit_test_setup_teardown(check_reports_what_was_kept, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(volumes_have_digits, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(the_vessel_is_simulated_and_placed_in, open_workplace, close_workplace),
         cmocka_unit_test_setup_teardown(what_is_written_is_cut_as_finely, open_workplace, close_workplace),

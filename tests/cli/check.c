@@ -15,7 +15,7 @@ static void check_measures_the_room(void **state)
 }
 
 /* The box of each part, and a warning where the file's unit can hardly be meant. */
-static void check_tells_how_large_everything_is(void **state)
+static void check_reports_how_large_everything_is(void **state)
 {
     (void)state;
     static const struct {
@@ -95,7 +95,7 @@ static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **st
 }
 
 /* Of a port above the ceiling, and not of one in it. */
-static void check_tells_of_mounts_that_take_no_nozzle(void **state)
+static void check_warns_of_mounts_that_take_no_nozzle(void **state)
 {
     (void)state;
     write_file("mounted.yaml", "geometry:\n  - file: room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\n"
@@ -135,7 +135,7 @@ static const char ported_yaml[] =
     "300 mm, spacing: 200 mm}}\n";
 
 /* Types, tilt, depths and number; and a port that is there twice. */
-static void check_tells_of_nozzles_against_their_ports(void **state)
+static void check_warns_of_nozzles_against_their_ports(void **state)
 {
     (void)state;
     static const char *const expected[] = {
@@ -156,7 +156,7 @@ static void check_tells_of_nozzles_against_their_ports(void **state)
 }
 
 /* Between the settings of a port; not where a setting is written with few digits, nor where there are no steps. */
-static void check_tells_of_nozzles_between_settings_of_their_ports(void **state)
+static void check_warns_of_nozzles_between_settings_of_their_ports(void **state)
 {
     (void)state;
     static const char *const expected[] = {
@@ -192,7 +192,7 @@ static void check_tells_of_nozzles_between_settings_of_their_ports(void **state)
 }
 
 /* Of `place` and of an alternative's own; not where the kept nozzles are within, whatever others take. */
-static void check_tells_of_limits_below_what_is_kept(void **state)
+static void check_warns_of_limits_below_what_is_kept(void **state)
 {
     (void)state;
     static const char *const expected[] = {
@@ -257,7 +257,7 @@ static void check_doubts_thresholds_of_another_unit(void **state)
 }
 
 /* In one place, nearer than their bodies allow, and as near as these allow. */
-static void bodies_that_overlap_are_told(void **state)
+static void bodies_that_overlap_are_reported(void **state)
 {
     (void)state;
     static const char *const expected[] = {"N1 and beside stand in one place: their bodies overlap",
@@ -301,7 +301,7 @@ static void bodies_that_overlap_are_told(void **state)
 }
 
 /* The second of three is the first again, the third is turned. */
-static void check_tells_of_nozzles_that_are_there_twice(void **state)
+static void check_warns_of_nozzles_that_are_there_twice(void **state)
 {
     (void)state;
     write_room_with(
@@ -377,17 +377,17 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangled_polygons_are_warned_of),
         cmocka_unit_test(check_measures_the_room),
-        cmocka_unit_test(check_tells_of_nozzles_against_their_ports),
-        cmocka_unit_test(check_tells_of_nozzles_between_settings_of_their_ports),
-        cmocka_unit_test(check_tells_of_limits_below_what_is_kept),
+        cmocka_unit_test(check_warns_of_nozzles_against_their_ports),
+        cmocka_unit_test(check_warns_of_nozzles_between_settings_of_their_ports),
+        cmocka_unit_test(check_warns_of_limits_below_what_is_kept),
         cmocka_unit_test(check_doubts_thresholds_of_another_unit),
-        cmocka_unit_test(check_tells_how_large_everything_is),
+        cmocka_unit_test(check_reports_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
-        cmocka_unit_test(check_tells_of_mounts_that_take_no_nozzle),
-        cmocka_unit_test(bodies_that_overlap_are_told),
+        cmocka_unit_test(check_warns_of_mounts_that_take_no_nozzle),
+        cmocka_unit_test(bodies_that_overlap_are_reported),
         cmocka_unit_test(texels_that_are_too_long_are_warned_of),
         cmocka_unit_test(the_unit_is_asked_for_behind_an_error_of_the_texel),
-        cmocka_unit_test(check_tells_of_nozzles_that_are_there_twice),
+        cmocka_unit_test(check_warns_of_nozzles_that_are_there_twice),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(check_says_where_liquid_stands),
     };

@@ -79,7 +79,7 @@ static void assert_page(const char *path, const char *says, const char *not_that
 }
 
 /* What is asked for differs by less than what is covered is off. */
-static void criteria_are_told(void **state)
+static void criteria_are_reported(void **state)
 {
     (void)state;
     outcome done = run_program("compare long/result.json near/result.json -o near2");
@@ -96,7 +96,7 @@ static void criteria_are_told(void **state)
 }
 
 /* What is asked for differs, so that each keeps its own figures; of a scene as of a result. */
-static void texels_are_told(void **state)
+static void texels_are_reported(void **state)
 {
     (void)state;
     outcome done = run_program("compare long/result.json strict/result.json -o lengths");
@@ -126,7 +126,7 @@ static void write_without(const char *key, const char *from, const char *to)
     json_decref(object);
 }
 
-static void what_is_not_known_is_told(void **state)
+static void what_is_not_known_is_reported(void **state)
 {
     (void)state;
     write_without("criterion", "long/result.json", "older.json");
@@ -140,7 +140,7 @@ static void what_is_not_known_is_told(void **state)
     assert_page("ages/report.html", "<strong>What covered means is not known.</strong>", "The same nozzles");
 }
 
-static void shadows_that_are_not_told_are_not_nothing(void **state)
+static void shadows_that_are_not_reported_are_not_nothing(void **state)
 {
     (void)state;
     write_without("shadows", "long/result.json", "shadowless.json");
@@ -159,7 +159,7 @@ static void shadows_that_are_not_told_are_not_nothing(void **state)
 }
 
 /* Each share is of its own surface, and each column of the areas that stand before it. */
-static void another_geometry_is_told(void **state)
+static void another_geometry_is_reported(void **state)
 {
     (void)state;
     outcome done = run_program("compare long/result.json wide/result.json -o sizes");
@@ -261,11 +261,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_layout_has_one_figure),
         cmocka_unit_test(what_differs_otherwise_keeps_its_own),
-        cmocka_unit_test(criteria_are_told),
-        cmocka_unit_test(texels_are_told),
-        cmocka_unit_test(what_is_not_known_is_told),
-        cmocka_unit_test(shadows_that_are_not_told_are_not_nothing),
-        cmocka_unit_test(another_geometry_is_told),
+        cmocka_unit_test(criteria_are_reported),
+        cmocka_unit_test(texels_are_reported),
+        cmocka_unit_test(what_is_not_known_is_reported),
+        cmocka_unit_test(shadows_that_are_not_reported_are_not_nothing),
+        cmocka_unit_test(another_geometry_is_reported),
         cmocka_unit_test(a_folder_stands_for_its_result),
         cmocka_unit_test(many_fold),
     };

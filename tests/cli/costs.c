@@ -97,7 +97,7 @@ static void fronts_and_bounds_are_of_prices(void **state)
     assert_null(json_object_get(certificate, "price_bound_same_coverage_l_min"));
 }
 
-static void page_tells_prices(void **state)
+static void page_shows_prices(void **state)
 {
     (void)state;
     static const char *const texts[] = {"Price: water and mounts",
@@ -172,7 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_layout_has_its_price),
         cmocka_unit_test(fronts_and_bounds_are_of_prices),
-        cmocka_unit_test(page_tells_prices),
+        cmocka_unit_test(page_shows_prices),
         cmocka_unit_test(the_layout_written_has_the_same_price),
         cmocka_unit_test(layouts_compared_stand_at_their_prices),
         cmocka_unit_test(no_prices_without_costs),

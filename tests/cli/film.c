@@ -31,7 +31,7 @@ static void film_runs_down_the_walls(void **state)
 }
 
 /* What arrives is not what lands, and stands beside what becomes of it; and nothing lies at -0.000. */
-static void what_arrives_is_told(void **state)
+static void what_arrives_is_reported(void **state)
 {
     (void)state;
     write_room_with("sunk.yaml", "room.obj\ncavity: [0.5 m, 0.5 m, 0.5 m]\ncriterion: {flux: 1 L/min/m2}",
@@ -58,7 +58,7 @@ static json_t *account_of(const json_t *result)
 }
 
 /* A lid that lies on the room and shares no edge with it: film crosses the crack, and that there is one is told. */
-static void cracks_are_told_of(void **state)
+static void cracks_are_reported(void **state)
 {
     (void)state;
     char text[1000];
@@ -171,10 +171,10 @@ static void drag_is_placed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(film_runs_down_the_walls), cmocka_unit_test(cracks_are_told_of),
+        cmocka_unit_test(film_runs_down_the_walls), cmocka_unit_test(cracks_are_reported),
         cmocka_unit_test(film_is_placed_for),       cmocka_unit_test(film_is_refused_where_it_cannot_be_counted),
         cmocka_unit_test(drag_is_simulated),        cmocka_unit_test(drag_is_placed),
-        cmocka_unit_test(what_arrives_is_told),
+        cmocka_unit_test(what_arrives_is_reported),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

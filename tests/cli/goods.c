@@ -37,7 +37,7 @@ static int open_belt(void **state)
 }
 
 /* The pass takes 1.2 m at 0.1 m/s; liquid that lands on what is cleaned is the mean dose on all of it. */
-static void doses_are_told(void **state)
+static void doses_are_reported(void **state)
 {
     (void)state;
     json_t *object = expect_json("simulate belt.yaml --set simulate.texel=40mm -o belt --json", 0),
@@ -103,7 +103,7 @@ static void what_was_not_looked_into_is_no_measure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(doses_are_told),
+        cmocka_unit_test(doses_are_reported),
         cmocka_unit_test(what_stands_is_called_a_machine),
         cmocka_unit_test(goods_are_placed_for_whatever_the_threads),
         cmocka_unit_test(what_was_not_looked_into_is_no_measure),

@@ -208,7 +208,7 @@ static void write_mistyped(int radius)
     write_file("mistyped.yaml", scene);
 }
 
-static void caps_that_shut_nothing_are_told(void **state)
+static void caps_that_shut_nothing_are_reported(void **state)
 {
     (void)state;
     write_room("open.obj", 3, 0);
@@ -233,7 +233,7 @@ int main(void)
         cmocka_unit_test(a_cap_shuts_it),
         cmocka_unit_test(a_cap_that_is_pasted_shuts_far_away),
         cmocka_unit_test(openings_that_are_not_listed_are_counted),
-        cmocka_unit_test(caps_that_shut_nothing_are_told),
+        cmocka_unit_test(caps_that_shut_nothing_are_reported),
         cmocka_unit_test(the_picture_is_the_same_for_any_number_of_threads),
     };
     return cmocka_run_group_tests(tests, open_with_gap, close_workplace);

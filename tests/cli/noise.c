@@ -10,7 +10,7 @@ static double fidelity_of(json_t *object, const char *key)
     return json_number_value(json_object_get(json_object_get(object, "fidelity"), key));
 }
 
-static void too_few_jets_are_told(void **state)
+static void too_few_jets_are_reported(void **state)
 {
     (void)state;
     outcome few = run_program(FORWARD "--set simulate.jets=5000 -o few");
@@ -67,7 +67,7 @@ static void a_shorter_texel_is_not_silently_worse(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(too_few_jets_are_told),
+        cmocka_unit_test(too_few_jets_are_reported),
         cmocka_unit_test(enough_are_not),
         cmocka_unit_test(a_shorter_texel_is_not_silently_worse),
     };

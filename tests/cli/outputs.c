@@ -63,7 +63,7 @@ static void simulate_writes_its_files(void **state)
 }
 
 /* When it was made stands in the page alone; what was read, in both. */
-static void what_was_read_is_told(void **state)
+static void what_was_read_is_reported(void **state)
 {
     (void)state;
     assert_int_equal(setenv("SOURCE_DATE_EPOCH", "86400", 1), 0);
@@ -218,7 +218,7 @@ int main(void)
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
         cmocka_unit_test(what_was_written_is_said),
-        cmocka_unit_test(what_was_read_is_told),
+        cmocka_unit_test(what_was_read_is_reported),
         cmocka_unit_test(what_came_through_a_pipe_has_no_digest),
         cmocka_unit_test(json_is_the_same_with_files_and_without),
         cmocka_unit_test(no_input_is_overwritten),

@@ -27,7 +27,7 @@ static void expect_better(const char *scene, const char *settings, const char *w
 }
 
 /* One ball of 20 L/min, where no more is allowed than one cone of 12, which covers less. */
-static void what_beats_the_proposal_is_told(void **state)
+static void what_beats_the_proposal_is_reported(void **state)
 {
     (void)state;
     write_room("ball.yaml", "ball");
@@ -51,7 +51,7 @@ static void what_does_not_or_is_beyond_the_limits_is_not(void **state)
                   NULL);
 }
 
-static void the_page_tells_it_too(void **state)
+static void the_page_shows_it_too(void **state)
 {
     (void)state;
     write_room("cone.yaml", "cone");
@@ -68,7 +68,7 @@ static void the_page_tells_it_too(void **state)
 }
 
 /* Where walls throw liquid back, search and proofs leave out what the figures count. */
-static void what_the_search_does_not_count_is_told(void **state)
+static void what_the_search_does_not_count_is_reported(void **state)
 {
     (void)state;
     static const char told[] = "The coverage of the layouts counts liquid that walls throw back. The search goes by "
@@ -154,12 +154,12 @@ static void what_the_time_did_not_allow_to_look_for_is_not_denied(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_beats_the_proposal_is_told),
+        cmocka_unit_test(what_beats_the_proposal_is_reported),
         cmocka_unit_test(what_does_not_or_is_beyond_the_limits_is_not),
-        cmocka_unit_test(the_page_tells_it_too),
+        cmocka_unit_test(the_page_shows_it_too),
         cmocka_unit_test(what_own_nozzles_alone_reach_is_attainable_everywhere),
         cmocka_unit_test(what_the_time_did_not_allow_to_look_for_is_not_denied),
-        cmocka_unit_test(what_the_search_does_not_count_is_told),
+        cmocka_unit_test(what_the_search_does_not_count_is_reported),
     };
     return cmocka_run_group_tests_name("own nozzles better", tests, open_workplace, close_workplace);
 }

@@ -24,7 +24,7 @@ static size_t count(const char *text, const char *what)
 }
 
 /* Stages in their order, each with its number of all. */
-static void tells_which_of_how_many_stages(void **state)
+static void shows_which_of_how_many_stages(void **state)
 {
     (void)state;
     static const char *const stages[] = {"[1/5] geometry", "[2/5] atlas", "[3/5] simulate", "[4/5] measured error",
@@ -66,7 +66,7 @@ static void so_do_atlas_and_trace(void **state)
 }
 
 /* Each alternative has the same stages again; with a limit the time that is left of it is known. */
-static void tells_the_time_left_of_the_limit(void **state)
+static void shows_the_time_left_of_the_limit(void **state)
 {
     (void)state;
     char *text = shown("TERM=xterm", "place room.yaml --set simulate.texel=200mm --time-limit 100");
@@ -101,9 +101,9 @@ static void has_no_escape_codes_where_none_are_wanted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tells_which_of_how_many_stages),
+        cmocka_unit_test(shows_which_of_how_many_stages),
         cmocka_unit_test(so_do_atlas_and_trace),
-        cmocka_unit_test(tells_the_time_left_of_the_limit),
+        cmocka_unit_test(shows_the_time_left_of_the_limit),
         cmocka_unit_test(has_no_escape_codes_where_none_are_wanted),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);

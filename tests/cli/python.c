@@ -78,7 +78,7 @@ static void alternatives_are_read_too(void **state)
     expect_agreement("choice", "ceiling");
 }
 
-static void what_differs_is_told(void **state)
+static void what_differs_is_reported(void **state)
 {
     (void)state;
     skip_without_python();
@@ -106,7 +106,7 @@ int main(void)
         cmocka_unit_test(files_agree_with_the_result),
         cmocka_unit_test(sheets_have_a_back),
         cmocka_unit_test(alternatives_are_read_too),
-        cmocka_unit_test(what_differs_is_told),
+        cmocka_unit_test(what_differs_is_reported),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

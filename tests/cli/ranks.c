@@ -144,7 +144,7 @@ static void so_it_does_with_much_to_refine(void **state)
     compare(wide_yaml, "wide", 4, 4);
 }
 
-static void an_error_is_told_once(void **state)
+static void an_error_is_reported_once(void **state)
 {
     (void)state;
     skip_without_mpi();
@@ -308,7 +308,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_ranks_gives_the_same_bytes),
         cmocka_unit_test(so_it_does_with_much_to_refine),
-        cmocka_unit_test(an_error_is_told_once),
+        cmocka_unit_test(an_error_is_reported_once),
         cmocka_unit_test(all_end_at_the_time_limit),
         cmocka_unit_test(all_end_where_one_is_asked_to),
         cmocka_unit_test(none_hangs_where_one_is_killed),

@@ -104,7 +104,7 @@ static void parts_that_lose_are_named(void **state)
     }
 }
 
-static void what_is_put_in_is_told(void **state)
+static void what_is_put_in_is_reported(void **state)
 {
     (void)state;
     write_file("torn.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
@@ -248,7 +248,7 @@ int main(void)
         cmocka_unit_test(a_copy_is_mended),
         cmocka_unit_test(the_table_says_so),
         cmocka_unit_test(parts_that_lose_are_named),
-        cmocka_unit_test(what_is_put_in_is_told),
+        cmocka_unit_test(what_is_put_in_is_reported),
         cmocka_unit_test(several_files_are_mended_each),
         cmocka_unit_test(no_input_is_replaced),
         cmocka_unit_test(wrong_names_are_refused),

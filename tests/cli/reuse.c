@@ -141,7 +141,7 @@ static void other_texels_pack_the_charts_anew(void **state)
     sp_scene_destroy(scene);
 }
 
-static void what_is_unsound_is_told_where(void **state)
+static void what_is_unsound_is_reported_where(void **state)
 {
     (void)state;
     expect("simulate room.yaml --set simulate.atlas=reuse", 3, "",
@@ -173,7 +173,7 @@ int main(void)
         cmocka_unit_test(files_have_pages_of_their_own),
         cmocka_unit_test(place_reuses_too),
         cmocka_unit_test(other_texels_pack_the_charts_anew),
-        cmocka_unit_test(what_is_unsound_is_told_where),
+        cmocka_unit_test(what_is_unsound_is_reported_where),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

@@ -159,7 +159,7 @@ static void the_page_has_the_sheet(void **state)
 }
 
 /* What can be set to 2.5 mm and 0.25 deg is told so, in the page as in the table. */
-static void the_page_tells_settings(void **state)
+static void the_page_shows_settings(void **state)
 {
     (void)state;
     write_file("fine.yaml", fine_room);
@@ -273,7 +273,7 @@ static const char turning_room[] =
     "simulate: {texel: 200 mm}\n";
 
 /* Wherever its angle is told; and what is read back is the same nozzle. */
-static void what_turns_is_told_by_all_that_it_sprays(void **state)
+static void what_turns_is_reported_by_all_that_it_sprays(void **state)
 {
     (void)state;
     static const struct {
@@ -310,11 +310,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_placed_is_what_can_be_set),
         cmocka_unit_test(the_page_has_the_sheet),
-        cmocka_unit_test(what_turns_is_told_by_all_that_it_sprays),
+        cmocka_unit_test(what_turns_is_reported_by_all_that_it_sprays),
         cmocka_unit_test(the_sheet_calls_mounts_by_their_names),
         cmocka_unit_test(what_is_kept_is_not_called_new),
         cmocka_unit_test(what_does_not_pass_is_refused),
-        cmocka_unit_test(the_page_tells_settings),
+        cmocka_unit_test(the_page_shows_settings),
     };
     return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
 }

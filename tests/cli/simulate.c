@@ -55,7 +55,7 @@ static void simulate_gives_the_figures(void **state)
 }
 
 /* What may keep the accuracy is said with that it is not kept. */
-static void what_to_do_about_the_accuracy_is_told(void **state)
+static void what_to_do_about_the_accuracy_is_reported(void **state)
 {
     (void)state;
     outcome result = run_program("simulate room.yaml " COARSE " --set simulate.accuracy=0.01%");
@@ -184,7 +184,7 @@ int main(void)
         cmocka_unit_test(lines_are_bounded),
         cmocka_unit_test(simulate_gives_the_figures),
         cmocka_unit_test(compare_sets_scenes_side_by_side),
-        cmocka_unit_test(what_to_do_about_the_accuracy_is_told),
+        cmocka_unit_test(what_to_do_about_the_accuracy_is_reported),
         cmocka_unit_test(a_nozzle_must_stand_in_the_liquid),
         cmocka_unit_test(a_point_outside_is_not_blamed_on_the_nozzle),
         cmocka_unit_test(simulate_says_where_the_liquid_goes),

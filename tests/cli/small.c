@@ -36,7 +36,7 @@ static void expect_text(const char *text, const char *expected)
 }
 
 /* What is told of a layout's water, wherever it is told. */
-static void no_water_is_told_as_nothing(void **state)
+static void no_water_is_reported_as_nothing(void **state)
 {
     (void)state;
     double water = number(layout_named(result, "proposed"), "water_l_min");
@@ -59,7 +59,7 @@ static void no_water_is_told_as_nothing(void **state)
 }
 
 /* The bound is told on page and terminal, rounded down by less than a hundredth of it. */
-static void what_is_proved_is_told(void **state)
+static void what_is_proved_is_reported(void **state)
 {
     (void)state;
     double bound = number(json_object_get(result, "certificate"), "water_bound_same_coverage_l_min"), told;
@@ -98,7 +98,7 @@ static void expect_digits(const char *id, const char *head, int column, double v
 }
 
 /* Its surface is 384 cm²: tenths of millimetres and of square centimetres tell what is on it. */
-static void small_places_and_areas_are_told(void **state)
+static void small_places_and_areas_are_reported(void **state)
 {
     (void)state;
     const json_t *manual = layout_named(result, "manual"),
@@ -122,7 +122,7 @@ static void small_places_and_areas_are_told(void **state)
 }
 
 /* By a nozzle that takes 12 L/min, area per water is millionths: the card says what the table does. */
-static void little_area_per_water_is_told(void **state)
+static void little_area_per_water_is_reported(void **state)
 {
     (void)state;
     write_file("much.yaml", "nozzles:\n"
@@ -166,9 +166,9 @@ static void one_is_no_plural(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_water_is_told_as_nothing),   cmocka_unit_test(one_is_no_plural),
-        cmocka_unit_test(what_is_proved_is_told),        cmocka_unit_test(small_places_and_areas_are_told),
-        cmocka_unit_test(little_area_per_water_is_told),
+        cmocka_unit_test(no_water_is_reported_as_nothing),   cmocka_unit_test(one_is_no_plural),
+        cmocka_unit_test(what_is_proved_is_reported),        cmocka_unit_test(small_places_and_areas_are_reported),
+        cmocka_unit_test(little_area_per_water_is_reported),
     };
     return cmocka_run_group_tests(tests, place_once, put_away);
 }

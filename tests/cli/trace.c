@@ -97,7 +97,7 @@ static void gravity_has_an_end(void **state)
     }
 }
 
-static void a_file_without_rays_is_told(void **state)
+static void a_file_without_rays_is_reported(void **state)
 {
     (void)state;
     write_file("none.csv", "# ox,oy,oz,vx,vy,vz\n\n");
@@ -236,7 +236,7 @@ int main(void)
         cmocka_unit_test(parabolas_fall),
         cmocka_unit_test(a_drop_that_is_let_go_falls),
         cmocka_unit_test(gravity_has_an_end),
-        cmocka_unit_test(a_file_without_rays_is_told),
+        cmocka_unit_test(a_file_without_rays_is_reported),
         cmocka_unit_test(help_says_what_a_miss_is),
         cmocka_unit_test(every_accelerator_and_thread_count_gives_the_same_bytes),
         cmocka_unit_test(json_holds_the_same),

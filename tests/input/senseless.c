@@ -196,7 +196,7 @@ static void setups_are_refused(void **state)
     SETUP("time limit", g->setup.run.time_limit = NAN);
 }
 
-static void options_are_told(void **state)
+static void options_are_reported(void **state)
 {
     givens *g = *state;
     PLACE("types", g->options.types = NULL);
@@ -325,14 +325,10 @@ static int close_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nozzles_are_refused),
-        cmocka_unit_test(types_are_refused),
-        cmocka_unit_test(heads_and_balls_are_refused),
-        cmocka_unit_test(setups_are_refused),
-        cmocka_unit_test(options_are_told),
-        cmocka_unit_test(mounts_are_refused),
-        cmocka_unit_test(trees_and_lists_are_refused),
-        cmocka_unit_test(what_is_allowed_is_taken),
+        cmocka_unit_test(nozzles_are_refused),         cmocka_unit_test(types_are_refused),
+        cmocka_unit_test(heads_and_balls_are_refused), cmocka_unit_test(setups_are_refused),
+        cmocka_unit_test(options_are_reported),        cmocka_unit_test(mounts_are_refused),
+        cmocka_unit_test(trees_and_lists_are_refused), cmocka_unit_test(what_is_allowed_is_taken),
     };
     return cmocka_run_group_tests(tests, open_room, close_room);
 }

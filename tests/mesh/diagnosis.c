@@ -246,7 +246,7 @@ static void loose_bits_are_counted(void **state)
     assert_true(fabs(d.bits.place[SP_PLACES - 1].x - SP_PLACES) < 1e-3 && !d.bits.more);
 }
 
-static void degenerate_and_unused_are_told(void **state)
+static void degenerate_and_unused_are_reported(void **state)
 {
     (void)state;
     static const sp_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {-9, -9, -9}};
@@ -300,7 +300,7 @@ int main(void)
         cmocka_unit_test(a_crack_is_found),
         cmocka_unit_test(bodies_inside_out),
         cmocka_unit_test(loose_bits_are_counted),
-        cmocka_unit_test(degenerate_and_unused_are_told),
+        cmocka_unit_test(degenerate_and_unused_are_reported),
         cmocka_unit_test(empty_mesh),
         cmocka_unit_test(half_edges_face_each_other),
     };

@@ -367,7 +367,7 @@ static void slivers_are_split_into_their_neighbours(void **state)
 }
 
 /* Both halves of the lid are there twice, in other parts: 0, 1 and 2 are the box, the lid and half of it. */
-static void what_parts_lose_is_told(void **state)
+static void what_parts_lose_is_reported(void **state)
 {
     (void)state;
     static const char *const names[] = {"box", "lid", "half"};
@@ -424,7 +424,7 @@ static void ends_of_pipes_stay_open(void **state)
     }
 }
 
-static void what_is_put_in_is_told(void **state)
+static void what_is_put_in_is_reported(void **state)
 {
     (void)state;
     enum { EDGE = 6 };
@@ -758,9 +758,9 @@ int main(void)
         cmocka_unit_test(a_sheet_there_twice_is_there_once),
         cmocka_unit_test(copies_with_a_reason_stay),
         cmocka_unit_test(slivers_are_split_into_their_neighbours),
-        cmocka_unit_test(what_parts_lose_is_told),
+        cmocka_unit_test(what_parts_lose_is_reported),
         cmocka_unit_test(ends_of_pipes_stay_open),
-        cmocka_unit_test(what_is_put_in_is_told),
+        cmocka_unit_test(what_is_put_in_is_reported),
         cmocka_unit_test(only_single_triangles_are_filled_in),
         cmocka_unit_test(one_sided_strips_stay),
         cmocka_unit_test(soups_get_no_worse),

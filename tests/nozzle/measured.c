@@ -219,7 +219,7 @@ static void even_images_are_full_cones(void **state)
 }
 
 /* cos² of the polar angle comes to (1 - cos³) 2π/3, and is told to second order in the rows. */
-static void a_smooth_profile_is_told(void **state)
+static void a_smooth_profile_is_reported(void **state)
 {
     (void)state;
     static const image coarse = {cosine_squared, 1, 15, 120}, fine = {cosine_squared, 8, 60, 120};
@@ -365,7 +365,7 @@ static void what_is_no_pattern_is_refused(void **state)
 }
 
 /* The least and the greatest numbers that an image may hold. */
-static void extreme_values_are_told(void **state)
+static void extreme_values_are_reported(void **state)
 {
     (void)state;
     const float tiny[4] = {1e-45f, 0, 1e-45f, 1e-45f}, huge[4] = {3e38f, 3e38f, 3e38f, 1e-45f};
@@ -385,10 +385,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_liquid_is_there),         cmocka_unit_test(means_hold_all_liquid),
-        cmocka_unit_test(even_images_are_full_cones),  cmocka_unit_test(a_smooth_profile_is_told),
+        cmocka_unit_test(even_images_are_full_cones),  cmocka_unit_test(a_smooth_profile_is_reported),
         cmocka_unit_test(azimuth_is_from_x_towards_y), cmocka_unit_test(jets_follow_the_liquid),
         cmocka_unit_test(densities_are_bounds),        cmocka_unit_test(what_is_no_pattern_is_refused),
-        cmocka_unit_test(extreme_values_are_told),
+        cmocka_unit_test(extreme_values_are_reported),
     };
     return cmocka_run_group_tests(tests, measure_all, forget_all);
 }

@@ -94,7 +94,7 @@ static void gaps_are_those_of_dense_tracks(void **state)
 }
 
 /* Hubs that turn slowly: tracks nearly along parallels, few and far apart. */
-static void small_fractions_are_told(void **state)
+static void small_fractions_are_reported(void **state)
 {
     (void)state;
     assert_gaps(1, 1, 24, 24, 40);
@@ -125,7 +125,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gaps_are_those_of_dense_tracks),
-        cmocka_unit_test(small_fractions_are_told),
+        cmocka_unit_test(small_fractions_are_reported),
         cmocka_unit_test(tracks_repeat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -150,7 +150,7 @@ static void nothing_may_be_left(void **state)
 }
 
 /* In words; nothing where all is drawn. */
-static void the_page_tells(void **state)
+static void the_page_shows(void **state)
 {
     (void)state;
     sp_error error = {0};
@@ -204,7 +204,7 @@ int main(void)
         cmocka_unit_test(what_fits_stays),
         cmocka_unit_test(few_enough_are_left_where_they_were),
         cmocka_unit_test(nothing_may_be_left),
-        cmocka_unit_test(the_page_tells),
+        cmocka_unit_test(the_page_shows),
         cmocka_unit_test(designs_of_one_surface_share_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -163,7 +163,7 @@ static void expect_bar(const fixture *f, sp_picture_style style, const char *con
     free(bar.text);
 }
 
-static void the_bar_tells_unit_ticks_and_criterion(void **state)
+static void the_bar_shows_unit_ticks_and_criterion(void **state)
 {
     const fixture *f = *state;
     expect_bar(f, (sp_picture_style){0},
@@ -309,7 +309,7 @@ int main(void)
         cmocka_unit_test(steps_part_where_the_criterion_does),
         cmocka_unit_test(what_is_not_covered_is_striped),
         cmocka_unit_test(charts_are_told_from_their_neighbours),
-        cmocka_unit_test(the_bar_tells_unit_ticks_and_criterion),
+        cmocka_unit_test(the_bar_shows_unit_ticks_and_criterion),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

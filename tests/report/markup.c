@@ -68,7 +68,7 @@ static void expect_water(double l_min, const char *expected)
 }
 
 /* The tenth from 10 L/min on, three significant digits below, of what it rounds to. */
-static void little_water_is_told_as_well_as_much(void **state)
+static void little_water_is_reported_as_well_as_much(void **state)
 {
     (void)state;
     expect_water(1234.56, "1234.6");
@@ -102,7 +102,7 @@ static void a_part_of_water_is_as_exact_as_the_whole(void **state)
 }
 
 /* And of several each is more than nothing. */
-static void little_water_beside_much_is_told(void **state)
+static void little_water_beside_much_is_reported(void **state)
 {
     (void)state;
     sp_text text = {0};
@@ -137,9 +137,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_rounds_to_zero_has_no_sign),
         cmocka_unit_test(what_is_next_to_nothing_is_zero),
-        cmocka_unit_test(little_water_is_told_as_well_as_much),
+        cmocka_unit_test(little_water_is_reported_as_well_as_much),
         cmocka_unit_test(a_part_of_water_is_as_exact_as_the_whole),
-        cmocka_unit_test(little_water_beside_much_is_told),
+        cmocka_unit_test(little_water_beside_much_is_reported),
         cmocka_unit_test(a_bound_of_water_is_rounded_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -56,7 +56,7 @@ static void one_share_is_attainable(void **state)
 }
 
 /* What was not found in the time may be there: no sentence says that it is not. */
-static void is_told_as_hurried(const char *html)
+static void is_reported_as_hurried(const char *html)
 {
     static const char *const sentences[] = {"<p id=\"beyond\"", "<p id=\"out-of-reach\"", "<section id=\"attainable\">",
                                             "A region that is not attainable"};
@@ -72,7 +72,7 @@ static void is_told_as_hurried(const char *html)
 }
 
 /* What the engineer's nozzles cover counts as attainable; that no allowed nozzle reaches it is told. */
-static void what_own_nozzles_alone_reach_is_told(void **state)
+static void what_own_nozzles_alone_reach_is_reported(void **state)
 {
     const fixture *f = *state;
     sp_error error = {0};
@@ -105,7 +105,7 @@ static void what_own_nozzles_alone_reach_is_told(void **state)
     free(html);
     proposal.attainable_hurried = true;
     html = sp_report_html(&result, &error);
-    is_told_as_hurried(html);
+    is_reported_as_hurried(html);
     free(html);
     sp_figures_destroy(figures, result.design_count);
     free(proposal.attainable);
@@ -157,7 +157,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(one_share_is_attainable),
-        cmocka_unit_test(what_own_nozzles_alone_reach_is_told),
+        cmocka_unit_test(what_own_nozzles_alone_reach_is_reported),
         cmocka_unit_test(limits_are_told_from_faults),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

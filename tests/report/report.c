@@ -51,7 +51,7 @@ static void the_page_stands_alone(void **state)
 }
 
 /* One, two and three. */
-static void coverage_is_told_by_number_of_nozzles(void **state)
+static void coverage_is_reported_by_number_of_nozzles(void **state)
 {
     const fixture *f = *state;
     sp_error error = {0};
@@ -290,7 +290,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_bytes_every_time),
         cmocka_unit_test(the_page_stands_alone),
-        cmocka_unit_test(coverage_is_told_by_number_of_nozzles),
+        cmocka_unit_test(coverage_is_reported_by_number_of_nozzles),
         cmocka_unit_test(the_page_says_what_paper_needs),
         cmocka_unit_test(the_page_says_what_nozzles_do_and_shadows_lack),
         cmocka_unit_test(notes_on_shadows_fit_their_columns),

@@ -56,7 +56,7 @@ static void result_json_has_the_keys_of_the_contract(void **state)
 }
 
 /* One that is looked for and helps, and one of which no candidate covers any. */
-static void remedies_are_told(void **state)
+static void remedies_are_reported(void **state)
 {
     const fixture *f = *state;
     sp_error error = {0};
@@ -132,7 +132,7 @@ static void reasons_add_up(void **state)
 }
 
 /* Each by a value of its own, so that no two can be confused and none be off by a factor. */
-static void flux_is_told_as_it_is(void **state)
+static void flux_is_reported_as_it_is(void **state)
 {
     const fixture *f = *state;
     static const char *const keys[] = {"min", "p05", "mean", "max"};
@@ -215,9 +215,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
-        cmocka_unit_test(remedies_are_told),
+        cmocka_unit_test(remedies_are_reported),
         cmocka_unit_test(reasons_add_up),
-        cmocka_unit_test(flux_is_told_as_it_is),
+        cmocka_unit_test(flux_is_reported_as_it_is),
         cmocka_unit_test(figures_survive_the_file),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

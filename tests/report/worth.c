@@ -154,7 +154,7 @@ static void expect_shadow(sp_criterion criterion, bool plate, double area, sp_la
     close_stage(&s);
 }
 
-static void shadows_tell_what_they_lack(void **state)
+static void shadows_show_what_they_lack(void **state)
 {
     (void)state;
     expect_shadow(anything, true, 0.32, SP_LACK_REACH);
@@ -172,7 +172,7 @@ static void open_two_shadows(stage *s)
     open_stage(s, true, (sp_criterion){.flux = FLOW / M_PI * pow(cosine, 3), .incidence = M_PI / 2}, &middle, 1);
 }
 
-static void figures_tell_parts_and_who_is_nearest(void **state)
+static void figures_show_parts_and_who_is_nearest(void **state)
 {
     (void)state;
     stage s;
@@ -293,7 +293,7 @@ static void a_digest_is_sha_256(void **state)
 }
 
 /* "The 1 largest uncovered regions" of one would be none of a page's words. */
-static void the_only_shadow_is_told_as_one(void **state)
+static void the_only_shadow_is_reported_as_one(void **state)
 {
     (void)state;
     stage s;
@@ -314,13 +314,13 @@ int main(void)
         cmocka_unit_test(sprays_apart_are_worth_what_they_cover),
         cmocka_unit_test(twins_are_worth_nothing_or_all),
         cmocka_unit_test(without_the_only_one_all_is_lost),
-        cmocka_unit_test(shadows_tell_what_they_lack),
-        cmocka_unit_test(figures_tell_parts_and_who_is_nearest),
+        cmocka_unit_test(shadows_show_what_they_lack),
+        cmocka_unit_test(figures_show_parts_and_who_is_nearest),
         cmocka_unit_test(swabs_are_the_worst_places),
         cmocka_unit_test(swabs_of_a_clean_floor_have_least_to_spare),
         cmocka_unit_test(swabs_of_a_dry_floor_are_spread),
         cmocka_unit_test(a_digest_is_sha_256),
-        cmocka_unit_test(the_only_shadow_is_told_as_one),
+        cmocka_unit_test(the_only_shadow_is_reported_as_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,7 +65,7 @@ static void expect_row(const lance *l, const char *expected)
     sp_scene_destroy(scene);
 }
 
-static void settings_are_told_as_they_are_set(void **state)
+static void settings_are_reported_as_they_are_set(void **state)
 {
     (void)state;
     lance l = {.scale = "1",
@@ -80,7 +80,7 @@ static void settings_are_told_as_they_are_set(void **state)
     expect_row(&l, ",port,P1,103,,0,0,2000,0,0,0,0,1897,0,0,22.3,90,,1,12\n");
 }
 
-static void small_parts_are_told_as_well(void **state)
+static void small_parts_are_reported_as_well(void **state)
 {
     (void)state;
     const lance l = {
@@ -195,9 +195,12 @@ static void standoff_and_heights_agree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(settings_are_told_as_they_are_set), cmocka_unit_test(small_parts_are_told_as_well),
-        cmocka_unit_test(decimals_follow_the_steps),         cmocka_unit_test(types_have_steps_as_well),
-        cmocka_unit_test(depth_and_heights_agree),           cmocka_unit_test(standoff_and_heights_agree),
+        cmocka_unit_test(settings_are_reported_as_they_are_set),
+        cmocka_unit_test(small_parts_are_reported_as_well),
+        cmocka_unit_test(decimals_follow_the_steps),
+        cmocka_unit_test(types_have_steps_as_well),
+        cmocka_unit_test(depth_and_heights_agree),
+        cmocka_unit_test(standoff_and_heights_agree),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -123,7 +123,7 @@ static void written_and_read_again(void **state)
     sp_scene_destroy(scene);
 }
 
-static void faults_are_told_where_they_are(void **state)
+static void faults_are_reported_where_they_are(void **state)
 {
     (void)state;
     static const struct {
@@ -186,7 +186,7 @@ int main(void)
         cmocka_unit_test(none_unless_asked_for),
         cmocka_unit_test(what_is_not_said_is_of_place),
         cmocka_unit_test(written_and_read_again),
-        cmocka_unit_test(faults_are_told_where_they_are),
+        cmocka_unit_test(faults_are_reported_where_they_are),
     };
     return cmocka_run_group_tests_name("alternatives in scenes", tests, scratch_make, scratch_remove);
 }

@@ -93,7 +93,7 @@ static void written_and_read_again(void **state)
     sp_scene_destroy(scene);
 }
 
-static void faults_are_told_where_they_are(void **state)
+static void faults_are_reported_where_they_are(void **state)
 {
     (void)state;
     static const char told[] = "  water_cost: 30 EUR per L/min\n";
@@ -139,7 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_and_money_come_to_water),
         cmocka_unit_test(written_and_read_again),
-        cmocka_unit_test(faults_are_told_where_they_are),
+        cmocka_unit_test(faults_are_reported_where_they_are),
     };
     return cmocka_run_group_tests_name("costs", tests, scratch_make, scratch_remove);
 }

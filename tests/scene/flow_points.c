@@ -39,7 +39,7 @@ static double flow_at_three_bar(const char *keys)
 }
 
 /* Points on a power of the pressure give that power back; others the best, which here is known. */
-static void points_tell_the_power(void **state)
+static void points_show_the_power(void **state)
 {
     (void)state;
     assert_true(fabs(flow_at_three_bar("flow: [2 L/min, 4 L/min, 8 L/min], at: [1 bar, 4 bar, 16 bar]") - 2 * sqrt(3)) <
@@ -52,7 +52,7 @@ static void points_tell_the_power(void **state)
                 1e-12);
 }
 
-static void slips_are_told(void **state)
+static void slips_are_reported(void **state)
 {
     (void)state;
     static const char *const slips[][2] = {
@@ -79,6 +79,6 @@ static void slips_are_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(points_tell_the_power), cmocka_unit_test(slips_are_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(points_show_the_power), cmocka_unit_test(slips_are_reported)};
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -139,7 +139,7 @@ static bool choose(const fixture *f, sp_error *error)
 }
 
 /* Told at the start and at the end, and no later than at the one after the first no. */
-static void is_told_and_stops(fixture *f, const char *stage, work *does)
+static void is_reported_and_stops(fixture *f, const char *stage, work *does)
 {
     sp_error error = {0};
     f->listener = (listener){.stage = stage, .left = 1 << 30};
@@ -164,14 +164,14 @@ static void evaluations_can_be_interrupted(void **state)
     for (int i = 0; i < 3; i++) {
         fixture f;
         open_room(&f, trajectories[i], 0, false);
-        is_told_and_stops(&f, "patches", evaluate);
-        is_told_and_stops(&f, "patches", contribute);
-        is_told_and_stops(&f, "liquid", balance);
-        is_told_and_stops(&f, "measured error", measure);
-        is_told_and_stops(&f, "borderline", find_borderline);
+        is_reported_and_stops(&f, "patches", evaluate);
+        is_reported_and_stops(&f, "patches", contribute);
+        is_reported_and_stops(&f, "liquid", balance);
+        is_reported_and_stops(&f, "measured error", measure);
+        is_reported_and_stops(&f, "borderline", find_borderline);
         if (trajectories[i] == SP_TRAJECTORY_LINE)
-            is_told_and_stops(&f, "bound on lines", bound_lines);
-        is_told_and_stops(&f, "settings", choose);
+            is_reported_and_stops(&f, "bound on lines", bound_lines);
+        is_reported_and_stops(&f, "settings", choose);
         close_room(&f);
     }
 }
@@ -181,12 +181,12 @@ static void so_can_those_of_film_and_of_goods_that_move(void **state)
     (void)state;
     fixture f;
     open_room(&f, SP_TRAJECTORY_PARABOLA, 1e-5, false);
-    is_told_and_stops(&f, "film", evaluate);
-    is_told_and_stops(&f, "film", measure);
+    is_reported_and_stops(&f, "film", evaluate);
+    is_reported_and_stops(&f, "film", measure);
     close_room(&f);
     open_room(&f, SP_TRAJECTORY_PARABOLA, 0, true);
-    is_told_and_stops(&f, "patches", evaluate);
-    is_told_and_stops(&f, "liquid", balance);
+    is_reported_and_stops(&f, "patches", evaluate);
+    is_reported_and_stops(&f, "liquid", balance);
     close_room(&f);
 }
 

@@ -211,7 +211,7 @@ static void a_nozzle_may_stand_above_an_open_tank(void **state)
 
 /* Two bodies with the cavity's point between: in either, whichever way they are turned, what parts the two is named,
  * and with a point beyond both that comes first, but of a nozzle that is out there too. */
-static void where_the_cavity_lies_is_told_of_a_nozzle_elsewhere(void **state)
+static void where_the_cavity_lies_is_reported_of_a_nozzle_elsewhere(void **state)
 {
     (void)state;
     static const struct {
@@ -257,7 +257,7 @@ int main(void)
         cmocka_unit_test(the_percentile_of_the_flux_is_by_area),
         cmocka_unit_test(a_nozzle_stands_in_the_liquid),
         cmocka_unit_test(a_nozzle_may_stand_above_an_open_tank),
-        cmocka_unit_test(where_the_cavity_lies_is_told_of_a_nozzle_elsewhere),
+        cmocka_unit_test(where_the_cavity_lies_is_reported_of_a_nozzle_elsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

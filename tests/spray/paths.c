@@ -168,7 +168,7 @@ static void drops_are_held_back(void **state)
     put_away(&free_ones);
 }
 
-static void of_many_holes_some_are_told(void **state)
+static void of_many_holes_some_are_reported(void **state)
 {
     (void)state;
     enum { HOLES = 100 };
@@ -193,7 +193,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_go_straight_to_the_floor),        cmocka_unit_test(parabolas_leave_at_the_nozzles_speed),
         cmocka_unit_test(bounces_keep_their_share_of_the_speed), cmocka_unit_test(drops_are_held_back),
-        cmocka_unit_test(of_many_holes_some_are_told),           cmocka_unit_test(types_fly_in_their_own_way),
+        cmocka_unit_test(of_many_holes_some_are_reported),       cmocka_unit_test(types_fly_in_their_own_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

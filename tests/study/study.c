@@ -55,7 +55,7 @@ static void the_front_of_a_known_set(void **state)
 }
 
 /* What is minimised where mounts cost something stands beside the water, and nowhere else is spoken of. */
-static void prices_of_placements_are_told(void **state)
+static void prices_of_placements_are_reported(void **state)
 {
     (void)state;
     sp_study_place place = {
@@ -203,7 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_of_known_series),
         cmocka_unit_test(the_front_of_a_known_set),
-        cmocka_unit_test(prices_of_placements_are_told),
+        cmocka_unit_test(prices_of_placements_are_reported),
         cmocka_unit_test(an_order_that_is_not_known_is_a_dash),
         cmocka_unit_test(jets_are_the_reference_where_walls_throw_back),
         cmocka_unit_test(cancelled_it_keeps_what_there_is),
