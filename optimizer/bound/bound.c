@@ -10,6 +10,7 @@
 #define ITERATIONS 150    /* of a solve, at most */
 #define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
 #define ROWS_MOST 600     /* of the few */
+#define IDLE_SHARE 0.98   /* of what could be left out if there were the few alone */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
@@ -23,7 +24,9 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     }
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
     bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
-    bool done = (bound->by_water && bound->needed) || sp_fail_memory(error);
+    bound->idle = malloc(cover->tier_count * sizeof *bound->idle);
+    bound->guess = calloc(cover->tier_count, sizeof *bound->guess);
+    bool done = (bound->by_water && bound->needed && bound->idle && bound->guess) || sp_fail_memory(error);
     if (!done || !sp_knapsack_create(cover->nozzles, cover->water, &bound->knapsack, error)) {
         sp_bound_free(bound);
         return false;
@@ -47,13 +50,17 @@ void sp_bound_free(sp_bound *bound)
     sp_offers_free(&bound->offers);
     free(bound->by_water);
     free(bound->needed);
+    free(bound->idle);
+    free(bound->guess);
     sp_knapsack_free(&bound->knapsack);
     *bound = (sp_bound){0};
 }
 
+/* These alone. */
 static void offer_rows(sp_bound *bound)
 {
     const sp_rows *rows = &bound->rows;
+    sp_offers_clear(&bound->offers);
     for (size_t c = 0; c < rows->count; c++)
         sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, &bound->dual.multipliers));
 }
@@ -62,7 +69,6 @@ static void offer_rows(sp_bound *bound)
 static void find_needed(sp_bound *bound, size_t water)
 {
     const sp_cover *cover = bound->cover;
-    sp_offers_clear(&bound->offers);
     offer_rows(bound);
     sp_knapsack_fill(&bound->knapsack, &bound->offers, water);
     double most = sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
@@ -80,23 +86,68 @@ void sp_bound_settle(sp_bound *bound)
             bound->by_water[w] = fmin(bound->by_water[w], bound->by_water[w - 1]);
 }
 
+/* Of what is on offer now. */
+static void find_idle(sp_bound *bound, double *idle)
+{
+    sp_knapsack_fill(&bound->knapsack, &bound->offers, bound->cover->water);
+    for (size_t k = 0; k < bound->cover->tier_count; k++)
+        idle[k] = sp_knapsack_idle(&bound->knapsack, bound->cover->weight[k]);
+}
+
+static void guess_idle(sp_bound *bound)
+{
+    if (bound->pricer->leaves_idle)
+        find_idle(bound, bound->guess);
+    for (size_t k = 0; k < bound->cover->tier_count; k++)
+        bound->guess[k] *= IDLE_SHARE;
+}
+
+/* Where it is not as was guessed, nothing is to be left out the next time. */
+static bool confirm_idle(sp_bound *bound)
+{
+    bool confirmed = true;
+    find_idle(bound, bound->idle);
+    for (size_t k = 0; k < bound->cover->tier_count; k++)
+        confirmed = confirmed && bound->guess[k] <= bound->idle[k];
+    if (!confirmed) {
+        memset(bound->guess, 0, bound->cover->tier_count * sizeof *bound->guess);
+        offer_rows(bound);
+    }
+    return confirmed;
+}
+
+/* Prices all candidates on top of the few, and fills the knapsack by what they are worth; *whole: it was not broken
+ * off. What may be left out is known once all else is on offer: the few let guess it, and where the guess was too high
+ * all are priced again. The few are extended the first time: what is best is the same. */
+static bool price_all(sp_bound *bound, bool *whole, sp_error *error)
+{
+    sp_pricing_task task = {&bound->dual.multipliers, bound->needed, bound->guess, .all = true, .extend = true};
+    guess_idle(bound);
+    *whole = false;
+    for (bool confirmed = false; !confirmed; task.extend = false) {
+        if (!sp_cover_goes_on(bound->cover))
+            return true;
+        if (!bound->pricer->price(bound->pricer->user, &task, &bound->offers, &bound->rows, error))
+            return false;
+        if (!sp_cover_goes_on(bound->cover))
+            return true;
+        confirmed = confirm_idle(bound);
+    }
+    *whole = true;
+    return true;
+}
+
 /* Prices all candidates on top of the few and lowers every bound that these multipliers lower; `proved` is the one at
  * `water`. */
 static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
-    bound->complete = false;
-    if (!sp_cover_goes_on(cover))
-        return true;
-    if (!bound->pricer->price(bound->pricer->user, &bound->dual.multipliers, bound->needed, true, &bound->offers,
-                              &bound->rows, error))
+    if (!price_all(bound, &bound->complete, error))
         return false;
-    if (!sp_cover_goes_on(cover))
+    if (!bound->complete)
         return true;
-    bound->complete = true;
     bound->proofs++;
-    sp_knapsack_fill(&bound->knapsack, &bound->offers, cover->water);
     double rest = (cover->base + sp_cover_rest(cover, &bound->dual.multipliers)) * (1 + 1e-12);
     size_t nozzles = bound->dual.multipliers.inequalities ? bound->inequalities.nozzles : cover->nozzles;
     for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
@@ -141,7 +192,6 @@ bool sp_bound_lower_single(sp_bound *bound, sp_error *error)
     }
     for (size_t k = 0; k < cover->tier_count; k++)
         bound->needed[k] = INFINITY;
-    sp_offers_clear(&bound->offers);
     offer_rows(bound);
     return prove(bound, bound->lightest < cover->water ? bound->lightest : cover->water, error);
 }
@@ -187,8 +237,10 @@ bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error)
 {
     if (water < bound->lightest)
         return true;
-    if (!solve(bound, water, error) || !bound->pricer->price(bound->pricer->user, &bound->dual.multipliers,
-                                                             bound->needed, false, &bound->offers, &bound->rows, error))
+    /* with nothing on offer, what is not needed is idle */
+    sp_pricing_task task = {&bound->dual.multipliers, bound->needed, bound->needed, .extend = true};
+    if (!solve(bound, water, error) ||
+        !bound->pricer->price(bound->pricer->user, &task, &bound->offers, &bound->rows, error))
         return false;
     bound->strengthening = !bound->cover->whole;
     return true;

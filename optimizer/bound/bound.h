@@ -5,14 +5,23 @@
 
 #include "bound/dual.h"
 
+/* What candidates are priced by, and which of them matter. */
+typedef struct {
+    const sp_multipliers *u;
+    const double *needed; /* [tiers], above which one is worth being among the few */
+    const double *idle;   /* [tiers], up to which one need not be offered */
+    bool all;             /* else it is enough to look at some, and to offer nothing */
+    bool extend;          /* the few */
+} sp_pricing_task;
+
 /* All candidates, however they are kept. */
 typedef struct {
     void *user;
-    /* Adds every candidate's total price at multipliers u to `offers`, or something no lower. Appends to `rows` some
-     * of those worth more than needed[tier] that are not among them yet (by key). Without `all` it may look at some
-     * only, and offer nothing. */
-    bool (*price)(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
-                  sp_error *error);
+    bool leaves_idle; /* does not offer all that is idle: whether it is so is to be confirmed */
+    /* Appends to `rows`, where these are to be extended, some of the candidates worth more than needed[tier] that are
+     * not among them yet (by key). Adds to `offers` the total price, or something no lower, of these and of all that
+     * are worth more than idle[tier]. */
+    bool (*price)(void *user, const sp_pricing_task *task, sp_offers *offers, sp_rows *rows, sp_error *error);
 } sp_pricer;
 
 /* What has been proved: no layout of at most so much covers more. m², base included. */
@@ -21,8 +30,9 @@ typedef struct {
     const sp_pricer *pricer;
     sp_rows rows; /* the few; a caller may put some in at the start */
     sp_dual dual;
-    double *by_water; /* [cover->water + 1], with all the nozzles; never falls */
-    double *needed;
+    double *by_water;     /* [cover->water + 1], with all the nozzles; never falls */
+    double *needed;       /* [tiers], of the next task */
+    double *guess, *idle; /* [tiers], of what may be left out: before it is known, and after */
     sp_knapsack knapsack;
     sp_offers offers;
     uint32_t lightest; /* of the tiers */

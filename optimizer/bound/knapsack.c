@@ -151,6 +151,23 @@ void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t wat
     knapsack->best = best_of(offers) * SP_UPWARDS_TABLE;
 }
 
+/* One nozzle of this price on top of any choice that leaves room for it comes to no more than the best choice with as
+ * many nozzles and as much water: all values stay as they were, and so they do with the next one. */
+double sp_knapsack_idle(const sp_knapsack *knapsack, uint32_t weight)
+{
+    const double *most = knapsack->value + (knapsack->rows - 1) * (knapsack->water + 1);
+    double least = knapsack->rows > 1 ? INFINITY : knapsack->best;
+    if (weight > knapsack->water)
+        return INFINITY;
+    for (size_t n = knapsack->rows > 1; n < knapsack->rows; n++) {
+        const double *value = knapsack->value + n * (knapsack->water + 1), *less = fewer(knapsack, n);
+        for (size_t w = weight; w <= knapsack->water; w++)
+            least = fmin(least, value[w] - less[w - weight]);
+    }
+    /* more than the difference is rounded off by */
+    return fmax(0, least - 2 * (SP_UPWARDS_TABLE - 1) * most[knapsack->water]);
+}
+
 double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water)
 {
     assert(nozzles <= knapsack->nozzles && water <= knapsack->water);

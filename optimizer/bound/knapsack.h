@@ -42,6 +42,9 @@ void sp_knapsack_free(sp_knapsack *knapsack);
 /* Dynamic programming: Martello and Toth, Knapsack Problems, 1990, chapter 2. Up to `water`, no more than created for:
  * less takes less time. */
 void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t water);
+/* The price (m²) up to which further nozzles of this weight, however many and in whatever ports, raise no value;
+ * INFINITY for one that is too heavy. Of what was filled up to all the water. */
+double sp_knapsack_idle(const sp_knapsack *knapsack, uint32_t weight);
 /* Of what was filled. */
 double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water);
 

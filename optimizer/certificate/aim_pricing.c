@@ -453,17 +453,17 @@ static int by_merit(const void *a, const void *b)
     return by_likeness(&(entry){.cell = p->cell}, &(entry){.cell = q->cell});
 }
 
-static bool price_aims(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
-                       sp_rows *rows, sp_error *error)
+/* Offers all, whatever is needed or idle: what matters is asked of all aims together, and little is spent on what does
+ * not. */
+static bool price_aims(void *user, const sp_pricing_task *task, sp_offers *offers, sp_rows *rows, sp_error *error)
 {
-    (void)all, (void)needed; /* what matters is asked of all aims together, and little is spent on what does not */
     sp_aim_pricing *pricing = user;
     size_t bests = pricing->search->sites->count * pricing->kinds->count;
     if (!open_all(pricing))
         return sp_fail_memory(error);
     read_offers(pricing, offers);
     while (pricing->open.count) {
-        if (!price_open(pricing, u, error))
+        if (!price_open(pricing, task->u, error))
             return false;
         if (!sp_cover_goes_on(pricing->cover))
             return true;
@@ -480,7 +480,7 @@ static bool price_aims(void *user, const sp_multipliers *u, const double *needed
 
 sp_pricer sp_aim_pricer(sp_aim_pricing *pricing)
 {
-    return (sp_pricer){pricing, price_aims};
+    return (sp_pricer){pricing, .price = price_aims};
 }
 
 double sp_aim_pricing_upper(sp_aim_pricing *pricing, const sp_aim_cell *cell, const sp_multipliers *u)

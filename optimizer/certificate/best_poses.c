@@ -10,16 +10,19 @@
 #include <string.h>
 
 #define ROWS_AT_A_TIME 300
-#define TOLD_LEAST 0.75 /* of what a pose must be worth to matter: below, an upper bound is enough to be shut out */
-#define STRIDE 7        /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
+#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below, an upper bound is enough to be shut out */
+#define STRIDE 7       /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
-/* What a site's pose of a variant must be worth to matter: more than is on offer, or than is needed. */
-static double least_of(const sp_pose_pricing *pricing, size_t port, size_t tier, const double *needed,
+/* What a site's pose of a variant must be worth to matter: more than is on offer and than is idle, or than is needed.
+ */
+static double least_of(const sp_pose_pricing *pricing, size_t port, size_t tier, const sp_pricing_task *task,
                        const sp_offers *offers)
 {
     double offered =
         port == SP_NO_PORT ? offers->free[tier * offers->most] : offers->port[port * offers->tier_count + tier];
-    return pricing->cover->weight[tier] > pricing->cover->water ? INFINITY : fmin(offered, needed[tier]);
+    return pricing->cover->weight[tier] > pricing->cover->water
+               ? INFINITY
+               : fmin(fmax(offered, task->idle[tier]), task->needed[tier]);
 }
 
 /* Prices all poses of a variant at a site, or every `stride`th, another one at the next site. The highest price, where
@@ -49,8 +52,8 @@ static sp_pose_best price_variant(sp_pose_pricing *pricing, sp_pose_scratch *own
 }
 
 /* The best pose of every variant at a site, of those that matter. */
-static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t site, const sp_multipliers *u,
-                       const double *needed, size_t stride, const sp_offers *offers)
+static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t site, const sp_pricing_task *task,
+                       const sp_offers *offers)
 {
     const sp_candidates *candidates = pricing->search->candidates;
     uint32_t mount = pricing->search->sites->items[site].mount;
@@ -60,7 +63,7 @@ static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t 
         const sp_variant *variant = &candidates->variants[k];
         sp_pose_best *found = &pricing->bests[site * candidates->variant_count + k];
         uint32_t tier = sp_pose_tier(pricing, site, k);
-        double least = least_of(pricing, pricing->ports[mount], tier, needed, offers);
+        double least = least_of(pricing, pricing->ports[mount], tier, task, offers);
         *found = (sp_pose_best){.price = 0};
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) ||
             pricing->search->port_taken[mount] || !sp_search_knows(pricing->search, site, k))
@@ -68,8 +71,8 @@ static void price_site(sp_pose_pricing *pricing, sp_pose_scratch *own, uint32_t 
         const sp_view *view = sp_visibility_look(pricing->search->visibility, site, variant->launch, &own->buffer);
         if (!view->start && sp_type_is_uniform(variant->type))
             continue;
-        sp_region region = sp_pose_prepare(pricing, own, view, variant, &frame, u);
-        *found = price_variant(pricing, own, view, site, k, &region, stride, least, needed[tier]);
+        sp_region region = sp_pose_prepare(pricing, own, view, variant, &frame, task->u);
+        *found = price_variant(pricing, own, view, site, k, &region, task->all ? 1 : STRIDE, least, task->needed[tier]);
     }
 }
 
@@ -105,30 +108,28 @@ static bool hand_out(const sp_pose_pricing *pricing, const double *needed, sp_ro
 }
 
 /* The prices of each rank's sites, see price_site. */
-static void price_sites(sp_pose_pricing *pricing, const sp_multipliers *u, const double *needed, size_t stride,
-                        const sp_offers *offers)
+static void price_sites(sp_pose_pricing *pricing, const sp_pricing_task *task, const sp_offers *offers)
 {
     size_t sites = pricing->search->sites->count;
     sp_ranks_part(sp_pose_ranks(pricing));
 #pragma omp parallel for num_threads(pricing->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(sp_pose_ranks(pricing), i) && sp_cover_goes_on(pricing->cover))
-            price_site(pricing, &pricing->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, stride, offers);
+            price_site(pricing, &pricing->scratches[omp_get_thread_num()], (uint32_t)i, task, offers);
     sp_ranks_rejoin(sp_pose_ranks(pricing));
     for (int i = 0; i < pricing->threads; i++)
         sp_visibility_release(pricing->search->visibility, &pricing->scratches[i].buffer);
 }
 
-static bool price_poses(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
-                        sp_rows *rows, sp_error *error)
+static bool price_poses(void *user, const sp_pricing_task *task, sp_offers *offers, sp_rows *rows, sp_error *error)
 {
     sp_pose_pricing *pricing = user;
     const sp_search *search = pricing->search;
     size_t variants = search->candidates->variant_count, sites = search->sites->count;
     memset(pricing->last, 0, pricing->order->list.count * sizeof *pricing->last);
-    sp_pose_price_found(pricing->order, u, NULL, pricing->last);
-    price_sites(pricing, u, needed, all ? 1 : STRIDE, offers);
-    if (!sp_pose_share_prices(pricing, all ? pricing->last : NULL, true, error))
+    sp_pose_price_found(pricing->order, task->u, NULL, pricing->last);
+    price_sites(pricing, task, offers);
+    if (!sp_pose_share_prices(pricing, task->all ? pricing->last : NULL, true, error))
         return false;
     if (!sp_cover_goes_on(pricing->cover))
         return true;
@@ -137,12 +138,12 @@ static bool price_poses(void *user, const sp_multipliers *u, const double *neede
             sp_offers_add(offers, pricing->ports[search->sites->items[i / variants].mount],
                           sp_pose_tier(pricing, (uint32_t)(i / variants), (uint32_t)(i % variants)),
                           pricing->bests[i].price);
-    return hand_out(pricing, needed, rows, error);
+    return !task->extend || hand_out(pricing, task->needed, rows, error);
 }
 
 sp_pricer sp_best_poses(sp_pose_pricing *pricing)
 {
-    return (sp_pricer){pricing, price_poses};
+    return (sp_pricer){pricing, .leaves_idle = true, .price = price_poses};
 }
 
 const float *sp_pose_pricing_last(const sp_pose_pricing *pricing)

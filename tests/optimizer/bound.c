@@ -339,9 +339,133 @@ static void the_knapsack_is_the_best_choice(void **state)
     }
 }
 
+/* Ports besides those of `from`, at each of which tier k is worth `price[k]`. */
+static void add_ports(const sp_offers *from, size_t more, const double price[4], sp_offers *offers)
+{
+    sp_error error = {0};
+    assert_true(sp_offers_create(4, from->weight, from->port_count + more, from->most, from->repeats, offers, &error));
+    memcpy(offers->free, from->free, 4 * from->most * sizeof *from->free);
+    memcpy(offers->port, from->port, 4 * from->port_count * sizeof *from->port);
+    for (size_t p = from->port_count; p < offers->port_count; p++)
+        for (size_t k = 0; k < 4; k++)
+            sp_offers_add(offers, p, k, price[k]);
+}
+
+/* By how much further ports raise what they raise most, as a share. */
+static double raised_by(const sp_offers *from, size_t more, const double price[4], size_t nozzles)
+{
+    sp_error error = {0};
+    sp_offers offers;
+    sp_knapsack before, after;
+    double most = 0;
+    add_ports(from, more, price, &offers);
+    assert_true(sp_knapsack_create(nozzles, 18, &before, &error) && sp_knapsack_create(nozzles, 18, &after, &error));
+    sp_knapsack_fill(&before, from, 18);
+    sp_knapsack_fill(&after, &offers, 18);
+    for (size_t n = 1; n <= nozzles; n++)
+        for (size_t w = 1; w <= 18; w++) {
+            double value = sp_knapsack_value(&before, n, w);
+            if (value > 0)
+                most = fmax(most, sp_knapsack_value(&after, n, w) / value - 1);
+            else if (sp_knapsack_value(&after, n, w) > 0)
+                most = INFINITY;
+        }
+    sp_knapsack_free(&before);
+    sp_knapsack_free(&after);
+    sp_offers_free(&offers);
+    return most;
+}
+
+/* Any number of nozzles that are worth no more leave all values as they are; one worth a little more raises one. */
+static void idle_nozzles_raise_no_value(void **state)
+{
+    (void)state;
+    uint64_t seed = 815;
+    const uint32_t weight[4] = {2, 3, 5, 7};
+    size_t above = 0;
+    for (int i = 0; i < 60; i++) {
+        size_t nozzles = i % 3 ? 4 : SP_KNAPSACK_COUNTED + 1;
+        sp_error error = {0};
+        sp_offers offers;
+        sp_knapsack knapsack;
+        double idle[4];
+        assert_true(sp_offers_create(4, weight, 6, 4, i % 2, &offers, &error));
+        for (int k = 0; k < 40; k++)
+            sp_offers_add(&offers, k % 8 ? (size_t)(6 * instance_random(&seed)) : SIZE_MAX,
+                          (size_t)(4 * instance_random(&seed)), instance_random(&seed));
+        assert_true(sp_knapsack_create(nozzles, 18, &knapsack, &error));
+        sp_knapsack_fill(&knapsack, &offers, 18);
+        assert_true(isinf(sp_knapsack_idle(&knapsack, 19)));
+        for (size_t k = 0; k < 4; k++)
+            idle[k] = sp_knapsack_idle(&knapsack, weight[k]);
+        assert_true(raised_by(&offers, 3, idle, nozzles) <= 1e-9);
+        for (size_t k = 0; k < 4; k++) {
+            double more[4] = {0};
+            more[k] = idle[k] + 1e-3;
+            above += idle[k] > 0;
+            assert_true(raised_by(&offers, 1, more, nozzles) > 1e-6);
+        }
+        sp_knapsack_free(&knapsack);
+        sp_offers_free(&offers);
+    }
+    assert_true(above > 60);
+}
+
+enum { SPAN_TEXELS = 29 };
+
+/* A candidate with all that texels from `first` on need. */
+static void add_span(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, uint32_t first, uint32_t count)
+{
+    sp_error error = {0};
+    uint32_t texels[SPAN_TEXELS];
+    float shares[SPAN_TEXELS];
+    for (uint32_t i = 0; i < count; i++) {
+        texels[i] = first + i;
+        shares[i] = 1;
+    }
+    assert_true(sp_rows_add(rows, key, port, tier, texels, shares, count, &error));
+}
+
+/* A candidate that ports leave no use for by what the first few offer, and that another one of theirs makes useful:
+ * what is left out is known only once all else is on offer. */
+static void what_is_left_out_is_so_of_all_offers(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    const uint32_t weight[2] = {1, 2};
+    float area[SPAN_TEXELS];
+    for (size_t t = 0; t < SPAN_TEXELS; t++)
+        area[t] = 1;
+    const sp_cover cover = {.texel_count = SPAN_TEXELS,
+                            .area = area,
+                            .tier_count = 2,
+                            .weight = weight,
+                            .port_count = 2,
+                            .nozzles = 2,
+                            .water = 2,
+                            .whole = true,
+                            .threads = 1};
+    sp_rows rows = {0};
+    stored all = {&cover, &rows, 4};
+    sp_pricer pricer = stored_pricer(&all);
+    sp_bound bound;
+    assert_true(sp_bound_create(&cover, &pricer, &bound, &error));
+    for (int few = 0; few < 2; few++) {
+        add_span(few ? &bound.rows : &rows, 0, 0, 0, 0, 10);
+        add_span(few ? &bound.rows : &rows, 1, 0, 1, 0, 20);
+    }
+    add_span(&rows, 2, 1, 0, 20, 9);
+    add_span(&rows, 3, 0, 0, 0, 15);
+    assert_true(sp_bound_lower_single(&bound, &error));
+    assert_true(bound.by_water[2] >= 24 && bound.by_water[2] < 24 + 1e-6);
+    sp_bound_free(&bound);
+    sp_rows_free(&rows);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(idle_nozzles_raise_no_value),       cmocka_unit_test(what_is_left_out_is_so_of_all_offers),
         cmocka_unit_test(the_knapsack_is_the_best_choice),   cmocka_unit_test(never_below_the_optimum),
         cmocka_unit_test(more_nozzles_than_are_counted),     cmocka_unit_test(groups_of_texels_lead_as_far),
         cmocka_unit_test(breaking_off_proves_nothing_false), cmocka_unit_test(tight_where_nothing_overlaps),

@@ -14,10 +14,9 @@ typedef struct {
     size_t most; /* rows to hand out at a time */
 } stored;
 
-static inline bool stored_price(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
-                                sp_rows *rows, sp_error *error)
+static inline bool stored_price(void *user, const sp_pricing_task *task, sp_offers *offers, sp_rows *rows,
+                                sp_error *error)
 {
-    (void)all;
     const stored *s = user;
     const sp_rows *from = s->rows;
     sp_ranked *entries = malloc((from->count + 1) * sizeof *entries);
@@ -25,15 +24,16 @@ static inline bool stored_price(void *user, const sp_multipliers *u, const doubl
     assert_true(entries && keys);
     size_t count = 0, had = rows->count;
     for (size_t c = 0; c < from->count; c++) {
-        double need = needed[from->tier[c]], price = sp_rows_price(from, c, u);
+        double need = task->needed[from->tier[c]], price = sp_rows_price(from, c, task->u);
         if (sp_keys_hold(keys, had, from->key[c]))
             continue;
-        sp_offers_add(offers, from->port[c], from->tier[c], price);
+        if (price > fmin(need, task->idle[from->tier[c]]))
+            sp_offers_add(offers, from->port[c], from->tier[c], price);
         if (price > need)
             entries[count++] = (sp_ranked){need > 0 ? price / need : price * 1e30, c};
     }
     sp_rank_falling(entries, count);
-    for (size_t i = 0; i < count && i < s->most; i++) {
+    for (size_t i = 0; task->extend && i < count && i < s->most; i++) {
         size_t row = entries[i].at, first = from->start[row];
         assert_true(sp_rows_add(rows, from->key[row], from->port[row], from->tier[row], from->texel + first,
                                 from->share + first, from->start[row + 1] - first, error));
@@ -45,7 +45,7 @@ static inline bool stored_price(void *user, const sp_multipliers *u, const doubl
 
 static inline sp_pricer stored_pricer(stored *s)
 {
-    return (sp_pricer){s, stored_price};
+    return (sp_pricer){s, .leaves_idle = true, .price = stored_price};
 }
 
 typedef struct {

@@ -328,13 +328,14 @@ static void check_film(const stage *s, const sp_coverage *coverage, const sp_row
 static void check_prices(stage *s)
 {
     sp_error error = {0};
-    const double needed[1] = {0};
+    const double none[1] = {0};
+    const sp_pricing_task task = {&s->multipliers, .needed = none, .idle = none, .all = true, .extend = true};
     sp_offers offers;
     sp_rows rows = {0};
     double prices = 0, worths = 0;
     assert_true(sp_offers_create(1, s->weight, 1, 3, true, &offers, &error));
     sp_pricer pricer = sp_best_poses(s->poses);
-    assert_true(pricer.price(pricer.user, &s->multipliers, needed, true, &offers, &rows, &error));
+    assert_true(pricer.price(pricer.user, &task, &offers, &rows, &error));
     const float *last = sp_pose_pricing_last(s->poses);
     size_t stride = 1 + s->order.list.count / POSES;
     for (size_t block = 0; block < s->order.block_count; block++)
