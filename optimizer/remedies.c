@@ -34,7 +34,7 @@ typedef struct {
     sp_search masked;         /* to which nothing but the shadow in hand is worth anything */
     site_best *best;          /* [sites] */
     int threads;
-    sp_sweeper *sweepers; /* [threads] */
+    sp_scorer *scorers; /* [threads] */
 } remedying;
 
 static void remedying_free(remedying *r)
@@ -43,7 +43,7 @@ static void remedying_free(remedying *r)
     free(r->coarse_of);
     free(r->masked.area);
     free(r->best);
-    sp_sweepers_destroy(r->sweepers, r->threads);
+    sp_scorers_destroy(r->scorers, r->threads);
 }
 
 static bool remedying_create(remedying *r, const sp_shadow *shadows, size_t count, sp_error *error)
@@ -64,9 +64,9 @@ static bool remedying_create(remedying *r, const sp_shadow *shadows, size_t coun
         return false;
     for (size_t p = 0; p < patches; p++)
         r->coarse_of[p] = r->number[p] ? sp_coarse_patch(r->fine, r->search->coarse, p) : SP_NONE;
-    r->threads = sp_sweeper_threads(&r->masked);
-    r->sweepers = sp_sweepers_create(&r->masked, r->threads, error);
-    return r->sweepers != NULL;
+    r->threads = sp_scorer_threads(&r->masked);
+    r->scorers = sp_scorers_create(&r->masked, r->threads, error);
+    return r->scorers != NULL;
 }
 
 /* Leaves the shadow alone worth something. What the search's patches, which may be coarser, see as covered of it is dry
@@ -91,19 +91,19 @@ static void mask(remedying *r, uint32_t shadow, sp_partial *partial)
 }
 
 /* The first of the equally good. */
-static void scan_variant(const remedying *r, const sp_partial *partial, sp_sweeper *sweeper, uint32_t variant,
+static void scan_variant(const remedying *r, const sp_partial *partial, sp_scorer *scorer, uint32_t variant,
                          site_best *best)
 {
     const sp_candidates *candidates = r->search->candidates;
-    uint32_t mount = r->search->sites->items[sweeper->site].mount;
+    uint32_t mount = r->search->sites->items[scorer->site].mount;
     size_t axes = sp_candidates_axes(candidates, mount, variant)->count;
     double tie = SP_SCORE_TIE * r->search->all;
-    sp_sweeper_take(sweeper, variant);
-    double most = sp_sweeper_most(sweeper); /* mounting points see little of one shadow, and soon all of that is wet */
+    sp_scorer_take(scorer, variant);
+    double most = sp_scorer_most(scorer); /* mounting points see little of one shadow, and soon all of that is wet */
     for (uint32_t a = 0; a < axes && most > best->gain + tie; a++)
         for (uint32_t roll = 0; roll < candidates->variants[variant].roll_count; roll++) {
-            sp_pose pose = {sweeper->site, variant, a, roll};
-            double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
+            sp_pose pose = {scorer->site, variant, a, roll};
+            double gain = sp_scorer_score(scorer, a, roll, best->gain + tie).gain;
             gain = sp_gain_at(&r->masked, partial, pose, gain);
             if (gain > best->gain + tie)
                 *best = (site_best){pose, gain};
@@ -113,15 +113,15 @@ static void scan_variant(const remedying *r, const sp_partial *partial, sp_sweep
 static void scan_site(remedying *r, const sp_partial *partial, uint32_t site)
 {
     const sp_candidates *candidates = r->search->candidates;
-    sp_sweeper *sweeper = &r->sweepers[omp_get_thread_num()];
+    sp_scorer *scorer = &r->scorers[omp_get_thread_num()];
     r->best[site] = (site_best){.gain = 0};
     if (!sp_partial_has_place(&r->masked, partial, r->search->sites->items[site].mount))
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
-        sp_sweeper_look(sweeper, &r->masked, partial, site, s);
+        sp_scorer_look(scorer, &r->masked, partial, site, s);
         for (uint32_t k = 0; k < candidates->variant_count; k++)
             if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k))
-                scan_variant(r, partial, sweeper, k, &r->best[site]);
+                scan_variant(r, partial, scorer, k, &r->best[site]);
     }
 }
 
@@ -141,7 +141,7 @@ static bool scan(remedying *r, const sp_partial *partial, sp_error *error)
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(r), i))
             scan_site(r, partial, (uint32_t)i);
-    sp_sweepers_forget(r->sweepers, r->threads);
+    sp_scorers_forget(r->scorers, r->threads);
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(r), i))
             sp_pack(&outgoing, &r->best[i], sizeof r->best[i]);

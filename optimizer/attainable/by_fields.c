@@ -14,7 +14,7 @@
 /* What is asked of the fields of candidates. */
 typedef enum {
     FILM,       /* of all of them */
-    FOOTPRINTS, /* what hits, of those that no sweep knows */
+    FOOTPRINTS, /* what hits, of those that no pattern kernel sums */
 } question;
 
 typedef struct {
@@ -27,7 +27,7 @@ typedef struct {
     size_t places;   /* offers for each */
     int threads;
     sp_offer *offers; /* [threads][count][2][places] */
-    sp_sweeper *sweepers;
+    sp_scorer *scorers;
     double water_left; /* m³/s */
 } running;
 
@@ -71,7 +71,7 @@ static void look_at_variant(const running *r, int thread, uint32_t site, uint32_
     const sp_search *search = r->search;
     const sp_variant *own = &search->candidates->variants[variant];
     const sp_scope *scope = &r->scopes[variant];
-    sp_sweeper *sweeper = &r->sweepers[thread];
+    sp_scorer *scorer = &r->scorers[thread];
     uint32_t mount = search->sites->items[site].mount;
     size_t place = sp_mount_capacity(&search->options->mounts[mount]) == 1 ? mount : search->options->mount_count;
     size_t axes = sp_candidates_axes(search->candidates, mount, variant)->count;
@@ -79,7 +79,7 @@ static void look_at_variant(const running *r, int thread, uint32_t site, uint32_
         return;
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t roll = 0; roll < own->roll_count; roll++) {
-            const float *field = sp_sweeper_field(sweeper, a, roll);
+            const float *field = sp_scorer_field(scorer, a, roll);
             for (size_t i = 0; i < r->count; i++) {
                 double ratio = brought(r, field, r->asked[i]) / own->flow;
                 sp_place_offers offers = offers_of(r, thread, i);
@@ -98,19 +98,19 @@ static bool look_at_sites(const running *r, const sp_partial *nothing)
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1) reduction(|| : late)
     for (size_t i = 0; i < r->search->sites->count; i++)
         for (uint32_t k = 0; k < candidates->variant_count; k++) {
-            sp_sweeper *sweeper = &r->sweepers[omp_get_thread_num()];
+            sp_scorer *scorer = &r->scorers[omp_get_thread_num()];
             uint32_t site = (uint32_t)sp_strided(i, r->search->sites->count);
             bool uniform = sp_type_is_uniform(candidates->variants[k].type);
             late = late || !sp_deadline_goes_on(r->deadline, "attainable", 1);
             if (late || (uniform && r->question == FOOTPRINTS))
                 continue;
-            sp_sweeper_look(sweeper, r->search, nothing, site, candidates->variants[k].launch);
-            if (uniform && !sweeper->view->start)
+            sp_scorer_look(scorer, r->search, nothing, site, candidates->variants[k].launch);
+            if (uniform && !scorer->view->start)
                 continue;
-            sp_sweeper_take(sweeper, k);
+            sp_scorer_take(scorer, k);
             look_at_variant(r, omp_get_thread_num(), site, k);
         }
-    sp_sweepers_forget(r->sweepers, r->threads);
+    sp_scorers_forget(r->scorers, r->threads);
     return !late;
 }
 
@@ -152,8 +152,8 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, bool *
     bool done = (attained && list_asked(r, fine, reasons)) || sp_fail_memory(error);
     if (done && r->count) {
         r->offers = calloc((size_t)r->threads * r->count, 2 * r->places * sizeof *r->offers);
-        r->sweepers = r->offers ? sp_sweepers_create(search, r->threads, error) : sp_fail_memory(error);
-        done = r->sweepers && sp_partial_create(search, &nothing, error);
+        r->scorers = r->offers ? sp_scorers_create(search, r->threads, error) : sp_fail_memory(error);
+        done = r->scorers && sp_partial_create(search, &nothing, error);
         if (done)
             *whole &= look_at_sites(r, &nothing);
         for (size_t i = 0; done && i < r->count; i++)
@@ -162,7 +162,7 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, bool *
             note(r, fine, attained, reasons);
     }
     sp_partial_free(&nothing);
-    sp_sweepers_destroy(r->sweepers, r->threads);
+    sp_scorers_destroy(r->scorers, r->threads);
     free(r->offers);
     free(r->asked);
     free(attained);
@@ -177,7 +177,7 @@ bool sp_attain_by_fields(const sp_evaluator *fine, const sp_search *search, cons
                  .deadline = deadline,
                  .scopes = scopes,
                  .places = search->options->mount_count + 1,
-                 .threads = sp_sweeper_threads(search),
+                 .threads = sp_scorer_threads(search),
                  .water_left = search->options->max_water - search->kept_flow};
     running hits = r, film = r;
     hits.question = FOOTPRINTS;

@@ -43,7 +43,7 @@ static bool look_from_all(const sp_search *search, sp_deadline *deadline, sp_rea
     size_t launches = search->candidates->launch_count;
     sp_error failure = {0};
     bool late = !sp_deadline_goes_on(deadline, "attainable", 1);
-#pragma omp parallel for num_threads(sp_sweeper_threads(search)) schedule(dynamic, 1) reduction(|| : late)
+#pragma omp parallel for num_threads(sp_scorer_threads(search)) schedule(dynamic, 1) reduction(|| : late)
     for (size_t i = 0; i < search->sites->count * launches; i++) {
         sp_error own = {0};
         late = late || !sp_deadline_goes_on(deadline, "attainable", 1);

@@ -8,6 +8,6 @@
 #define SP_UPWARDS_TEXELS (1 + 1e-11) /* prices of a nozzle's texels: up to 89,000 of them, which candidates have not */
 #define SP_UPWARDS_SETS (1 + 1e-9)    /* areas of sets of texels: up to 8.9 million */
 #define SP_UPWARDS_SINGLE (1 + 1e-6)  /* of numbers in single precision, a dozen roundings each */
-#define SP_UPWARDS_SWEEP (1 + 1e-4)   /* of a sweep, see sweep.h */
+#define SP_UPWARDS_SUM (1 + 1e-4)   /* of a kernel, see pattern_kernels.h */
 
 #endif

@@ -16,7 +16,7 @@
 #define COARSENESS_MOST 4.0
 #define TRACED_ENOUGH 40000.0 /* patterns, each of which takes about as long as a view */
 #define FLAT_ROLLS 8
-#define BODY_ROLLS 4 /* of what no sweep knows, each of which has to be traced */
+#define BODY_ROLLS 4 /* of what no pattern kernel sums, each of which has to be traced */
 #define ANGLES 3
 
 static size_t rolls_of(const sp_nozzle_type *type)

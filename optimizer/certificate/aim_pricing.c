@@ -95,7 +95,7 @@ sp_aim_pricing *sp_aim_pricing_create(const sp_search *search, const sp_cover *c
                                 .tier_of = tier_of,
                                 .ports = ports,
                                 .poses = poses,
-                                .threads = sp_sweeper_threads(search),
+                                .threads = sp_scorer_threads(search),
                                 .water = cover->water};
     pricing->scratches = calloc((size_t)pricing->threads, sizeof *pricing->scratches);
     pricing->best = calloc(search->sites->count + 1, kinds->count * sizeof *pricing->best);
@@ -217,8 +217,8 @@ static double reach_price(const sp_aim_pricing *pricing, scratch *own, const sp_
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;
-    search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, 0, &price);
-    return price * SP_UPWARDS_SWEEP;
+    search->kernels->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, 0, &price);
+    return price * SP_UPWARDS_SUM;
 }
 
 /* Turns to what a cell's aims bring at most; false where nothing is seen. */

@@ -30,7 +30,7 @@ void sp_pose_pricing_worth(const sp_pose_pricing *pricing, const sp_view *view, 
                                  : sp_strengthen(u->inequalities, u->kind[t], share);
         worth[i] += u->strengthened[t] * strong;
     }
-    pricing->search->sweeps->total(view, worth, total);
+    pricing->search->kernels->total(view, worth, total);
 }
 
 sp_region sp_pose_prepare(const sp_pose_pricing *pricing, sp_pose_scratch *own, const sp_view *view,
@@ -52,14 +52,14 @@ static double row_price(const sp_pose_scratch *own, size_t count)
 {
     size_t start[] = {0, count};
     sp_rows row = {.count = 1, .start = start, .texel = own->texels, .share = own->shares};
-    return sp_rows_price(&row, 0, own->multipliers) * SP_UPWARDS_SWEEP;
+    return sp_rows_price(&row, 0, own->multipliers) * SP_UPWARDS_SUM;
 }
 
 /* The price of the pose's own row: what runs down comes from everywhere above, which no bin knows. */
 static double field_price_of(const sp_pose_pricing *pricing, const sp_pose_scratch *own, const sp_variant *variant,
                              const sp_region *region)
 {
-    sp_field_sweep(pricing->search, &own->fields, variant, region, own->field);
+    sp_field_region(pricing->search, &own->fields, variant, region, own->field);
     return row_price(own, sp_pose_write_field(pricing, own->field, own->texels, own->shares));
 }
 
@@ -77,9 +77,9 @@ double sp_pose_price(const sp_pose_pricing *pricing, const sp_pose_scratch *own,
     sp_outline_turn(&region->outline, &frame);
     if (pricing->film_need)
         return field_price_of(pricing, own, &search->candidates->variants[pose.variant], region);
-    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / SP_UPWARDS_SWEEP,
-                        &price);
-    return price * SP_UPWARDS_SWEEP;
+    search->kernels->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / SP_UPWARDS_SUM,
+                         &price);
+    return price * SP_UPWARDS_SUM;
 }
 
 double sp_pose_price_most(const sp_pose_scratch *own)
@@ -87,5 +87,5 @@ double sp_pose_price_most(const sp_pose_scratch *own)
     double sum = 0;
     for (size_t b = 0; b < SP_BINS; b++)
         sum += (double)own->total[b];
-    return sum * SP_UPWARDS_SWEEP;
+    return sum * SP_UPWARDS_SUM;
 }

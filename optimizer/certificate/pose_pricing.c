@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define SWEPT_MORE 1e-5f /* more than single precision puts a swept share, or flux, wrong */
+#define SHARES_MORE 1e-5f /* more than single precision puts a share, or flux, wrong */
 
 static bool allocate(sp_pose_pricing *pricing)
 {
@@ -15,8 +15,8 @@ static bool allocate(sp_pose_pricing *pricing)
     for (int i = 0; i < pricing->threads; i++) {
         sp_pose_scratch *own = &pricing->scratches[i];
         own->worth = calloc(2 * room, sizeof *own->worth);
-        own->fields = (sp_field_sweeper){.cull = &own->cull,
-                                         .more = SWEPT_MORE,
+        own->fields = (sp_field_scratch){.cull = &own->cull,
+                                         .more = SHARES_MORE,
                                          .share = own->worth,
                                          .counts = own->worth + room,
                                          .runs = malloc(SP_BINS * sizeof *own->fields.runs)};
@@ -51,7 +51,7 @@ sp_pose_pricing *sp_pose_pricing_create(const sp_search *search, const sp_cover 
                                  .ports = ports,
                                  .upwards = (float)(1 + sp_field_margin(search->kept_count + cover->nozzles)),
                                  .bent = any_bent(search),
-                                 .threads = sp_sweeper_threads(search)};
+                                 .threads = sp_scorer_threads(search)};
     if (allocate(pricing))
         return pricing;
     sp_pose_pricing_destroy(pricing);

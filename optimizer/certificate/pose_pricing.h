@@ -1,4 +1,4 @@
-/* What every candidate pose is worth at given multipliers of the texels: swept from what was traced, no pose's row
+/* What every candidate pose is worth at given multipliers of the texels: summed from what was traced, no pose's row
  * stored. What its files share: rows (pose_rows.h), the price of one pose (pose_price.h), all of them as a list
  * (pose_list.h), and the best for a bound (best_poses.h). */
 #ifndef OPTIMIZER_POSE_PRICING_H
@@ -33,7 +33,7 @@ typedef struct {
     sp_cull cull;
     sp_view_buffer *buffer;
     const sp_multipliers *multipliers; /* of now */
-    sp_field_sweeper fields;           /* of which `worth` holds the arrays */
+    sp_field_scratch fields;           /* of which `worth` holds the arrays */
     float *field;                      /* [field_count] */
     uint32_t *texels;                  /* [2 patch_count], of the row of a field or footprint */
     float *shares;

@@ -67,7 +67,7 @@ bool sp_pose_pricing_row(const sp_pose_pricing *pricing, const float *field, uin
     return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
 }
 
-/* Appends the row of a pose that no sweep knows. */
+/* Appends the row of a pose that no pattern kernel sums. */
 static bool add_footprint(const sp_pose_pricing *pricing, const sp_footprint *footprint, uint64_t key, size_t port,
                           uint32_t tier, sp_rows *rows, sp_error *error)
 {
@@ -86,8 +86,8 @@ bool sp_pose_pricing_found(const sp_pose_pricing *pricing, const sp_placed *plac
                                error);
 }
 
-/* The field of a pose that sweeps know, rounded upwards, into the thread's own. */
-static void sweep_pose(const sp_pose_pricing *pricing, sp_pose_scratch *own, sp_pose pose)
+/* The field of a pose that the kernels sum, rounded upwards, into the thread's own. */
+static void sum_pose(const sp_pose_pricing *pricing, sp_pose_scratch *own, sp_pose pose)
 {
     const sp_search *search = pricing->search;
     const sp_variant *variant = &search->candidates->variants[pose.variant];
@@ -101,7 +101,7 @@ static void sweep_pose(const sp_pose_pricing *pricing, sp_pose_scratch *own, sp_
         sp_region region =
             sp_region_create(&variant->spray, &frame, sp_variant_strength(search, variant), SP_POSE_SLACK);
         sp_cull_create(&search->visibility->bins, own->fields.view, &variant->spray, SP_COUNT_SHARE, &own->cull);
-        sp_field_sweep(search, &own->fields, variant, &region, own->field);
+        sp_field_region(search, &own->fields, variant, &region, own->field);
     }
     sp_visibility_release(search->visibility, &buffer);
 }
@@ -115,6 +115,6 @@ bool sp_pose_pricing_add(const sp_pose_pricing *pricing, sp_pose pose, sp_rows *
     uint32_t tier = sp_pose_tier(pricing, pose.site, pose.variant);
     if (!sp_type_is_uniform(search->candidates->variants[pose.variant].type))
         return add_footprint(pricing, sp_footprints_look(search->footprints, pose), key, port, tier, rows, error);
-    sweep_pose(pricing, own, pose);
+    sum_pose(pricing, own, pose);
     return sp_pose_pricing_row(pricing, own->field, key, port, tier, rows, error);
 }

@@ -16,7 +16,7 @@ static sp_nozzle as_variant(const sp_nozzle *nozzle, const sp_variant *variant, 
                        .flow = flow == variant->flow ? 0 : flow};
 }
 
-/* Of what no sweep knows a footprint of its own: no candidate need stand where it does. */
+/* Of what no pattern kernel sums a footprint of its own: no candidate need stand where it does. */
 static bool look(const sp_search *search, sp_placed *placed, sp_error *error)
 {
     placed->moved = NULL;

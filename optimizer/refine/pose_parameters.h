@@ -22,7 +22,7 @@ typedef struct {
     double low[SP_UNKNOWNS], high[SP_UNKNOWNS]; /* low < high */
 } sp_pose_parameters;
 
-/* Nothing, where sweeps do not know the nozzle's type. */
+/* Nothing, where kernels do not sum the nozzle's type. */
 sp_pose_parameters sp_pose_parameters_create(const sp_search *search, const sp_placed *placed);
 /* The nozzle at these values, its axis brought back within the limits of tilt and refinement. */
 sp_nozzle sp_pose_parameters_nozzle(const sp_pose_parameters *parameters, const double *values);

@@ -135,7 +135,7 @@ static void turn_flow(const sp_search *search, sp_placed *placed, int way)
     turn(search, placed, SETTING_FLOW, passed ? way : 0);
 }
 
-/* The nozzle at settings. What no sweep knows stands at those of a candidate. */
+/* The nozzle at settings. What no pattern kernel sums stands at those of a candidate. */
 static void turn_all(const sp_search *search, sp_placed *placed, int way)
 {
     if (!sp_type_is_uniform(placed->nozzle.type))

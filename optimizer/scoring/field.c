@@ -91,33 +91,33 @@ void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_
     sp_field_end(&making);
 }
 
-/* What one swept arrival comes to; `count` is its share where it meets the criterion alone, else whether the spray
+/* What one arrival comes to; `count` is its share where it meets the criterion alone, else whether the spray
  * holds it. */
-static inline float swept_value(float flux, float count)
+static inline float arrival_value(float flux, float count)
 {
     float alone = count < 1 ? -count : flux;
     return flux >= 1 ? alone : count > 0 ? flux : 0;
 }
 
-void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_variant *variant,
-                    const sp_region *region, float *field)
+void sp_field_region(const sp_search *search, const sp_field_scratch *scratch, const sp_variant *variant,
+                     const sp_region *region, float *field)
 {
-    const sp_view *view = sweeper->view;
+    const sp_view *view = scratch->view;
     sp_posed_spray posed = {.spray = variant->spray, .type = variant->type, .flow = variant->flow};
     sp_field_making making = sp_field_begin(search, &posed, search->view_area, field);
-    float strength = (float)sp_variant_strength(search, variant) * (1 + sweeper->more);
-    float intensity = (float)making.intensity * (1 + sweeper->more);
-    size_t runs = search->sweeps->shares(&search->visibility->bins, sweeper->cull, region, view, sweeper->share,
-                                         sweeper->counts, sweeper->runs);
+    float strength = (float)sp_variant_strength(search, variant) * (1 + scratch->more);
+    float intensity = (float)making.intensity * (1 + scratch->more);
+    size_t runs = search->kernels->shares(&search->visibility->bins, scratch->cull, region, view, scratch->share,
+                                          scratch->counts, scratch->runs);
     for (size_t r = 0; r < runs; r++)
-        for (uint32_t i = sweeper->runs[r].first; i < sweeper->runs[r].end; i++) {
+        for (uint32_t i = scratch->runs[r].first; i < scratch->runs[r].end; i++) {
             uint32_t p = view->patch[i];
-            float share = sweeper->share[i], part = sp_view_part(view, i),
+            float share = scratch->share[i], part = sp_view_part(view, i),
                   flux = view->transfer[i] > 0 ? strength * view->transfer[i] : 0;
-            if (share + sweeper->more > 0 && making.runoff)
-                making.arriving[p] += (double)((share + sweeper->more) * part * view->transfer[i] * intensity);
-            if (sweeper->counts[i] > 0 && !(view->fails && view->fails[i]))
-                field[p] = sp_field_join(field[p], swept_value(flux, sweeper->counts[i]), part);
+            if (share + scratch->more > 0 && making.runoff)
+                making.arriving[p] += (double)((share + scratch->more) * part * view->transfer[i] * intensity);
+            if (scratch->counts[i] > 0 && !(view->fails && view->fails[i]))
+                field[p] = sp_field_join(field[p], arrival_value(flux, scratch->counts[i]), part);
         }
     sp_field_end(&making);
 }

@@ -39,17 +39,17 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 /* The same of any nozzle whose type is uniform, traced anew. With `wet` [patch_count], a partial layout's (NULL: none),
  * patches that it wets enough are left out: what the nozzle adds to that layout stays the same. */
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const float *wet, float *field, sp_error *error);
-/* One thread's memory for fields by sweeps, which are a little less exact and made much faster. */
+/* One thread's memory for fields by the kernels, which are a little less exact and made much faster. */
 typedef struct {
     const sp_view *view;
     const sp_cull *cull;      /* of the view and the variant's spray */
     float more;               /* share by which all is rounded upwards */
     float *share, *counts;    /* [largest view + 2 SP_LANES] */
     sp_run_of_arrivals *runs; /* [SP_BINS] */
-} sp_field_sweeper;
+} sp_field_scratch;
 /* The field of a variant in a region that was turned to the pose. */
-void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_variant *variant,
-                    const sp_region *region, float *field);
+void sp_field_region(const sp_search *search, const sp_field_scratch *scratch, const sp_variant *variant,
+                     const sp_region *region, float *field);
 
 /* Flux over threshold per transfer of a view. */
 double sp_variant_strength(const sp_search *search, const sp_variant *variant);

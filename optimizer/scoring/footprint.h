@@ -1,5 +1,5 @@
 /* Footprints: what a nozzle brings to the patches that it reaches, whatever patterns it has, as the measure counts it.
- * For clusters, and for what does not spray as densely all over, which no sweep of a view knows. */
+ * For clusters, and for what does not spray as densely all over, which no pattern kernel sums over a view. */
 #ifndef OPTIMIZER_FOOTPRINT_H
 #define OPTIMIZER_FOOTPRINT_H
 

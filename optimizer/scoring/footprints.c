@@ -13,7 +13,7 @@ struct sp_footprints {
     sp_footprint **added; /* [added_count], of nozzles in no candidate's pose */
     size_t added_count, added_capacity;
     double bytes;
-    size_t filled; /* poses of lower numbers, of types that no sweep knows, were all traced */
+    size_t filled; /* poses of lower numbers, of types that no pattern kernel sums, were all traced */
     bool closed;   /* what is not known brings nothing */
     bool lacking;  /* some are not known */
     pthread_mutex_t lock;
@@ -171,7 +171,7 @@ bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error)
     return sp_fail(error, failure->kind, failure->file, failure->line, failure->column, "%s", failure->message);
 }
 
-/* The poses that no sweep knows; NULL when memory runs out. */
+/* The poses that no pattern kernel sums; NULL when memory runs out. */
 static sp_pose *list_poses(const sp_search *search, size_t *count)
 {
     const sp_candidates *candidates = search->candidates;

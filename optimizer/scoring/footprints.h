@@ -8,7 +8,7 @@
 typedef struct sp_footprints sp_footprints;
 
 /* For the poses of a search's candidates, on its patches; the search, or a copy of it, outlives them. Stays NULL, and
- * true, where sweeps know all candidates. */
+ * true, where the kernels sum all candidates. */
 bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error);
 /* Accepts NULL. */
 void sp_footprints_destroy(sp_footprints *footprints);

@@ -22,7 +22,7 @@ sp_score sp_field_score(const sp_search *search, const sp_partial *partial, cons
     sp_credit credit = {search->single, search->credit, 0};
     sp_wetted wetted = {search->patch_count, search->area, partial->hit, partial->film, partial->wet, partial->dry};
     double sums[2];
-    search->sweeps->score(&credit, &wetted, field, field + search->patch_count, sums);
+    search->kernels->score(&credit, &wetted, field, field + search->patch_count, sums);
     return (sp_score){sums[0] * search->all, sums[1] * search->all};
 }
 

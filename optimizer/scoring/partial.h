@@ -8,9 +8,9 @@
 
 typedef struct {
     sp_nozzle nozzle;
-    sp_nozzle origin;          /* the candidate that it was, from which refinement's limits count */
-    sp_pose pose;              /* the same, where it is still there: of a type that no sweep knows; of no site where
-                                * another placement had that candidate, not this one */
+    sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
+    sp_pose pose;     /* the same, where it is still there: of a type that no pattern kernel sums; of no site where
+                       * another placement had that candidate, not this one */
     const sp_footprint *moved; /* of such a type that stands elsewhere in the end, on the search's patches; else NULL */
     sp_site site;              /* where it is now: a surface's axis changes along it */
     double flow;               /* m³/s */
@@ -56,7 +56,7 @@ static inline bool sp_covers_more(const sp_search *search, const sp_partial *a, 
 {
     return a->covered > b->covered + SP_TIE * search->all;
 }
-/* What a nozzle brings of a type that no sweep knows. */
+/* What a nozzle brings of a type that no pattern kernel sums. */
 const sp_footprint *sp_placed_footprint(const sp_search *search, const sp_placed *placed);
 /* What a nozzle takes where it is, m³/s. */
 static inline double sp_placed_outlay(const sp_search *search, const sp_placed *placed)

@@ -113,7 +113,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .sites = sites,
                           .candidates = candidates,
                           .visibility = visibility,
-                          .sweeps = sp_sweep_best(),
+                          .kernels = sp_pattern_kernels_best(),
                           .coarse = coarse,
                           .patch_count = sp_evaluator_patches(coarse)->count,
                           .threshold = threshold,

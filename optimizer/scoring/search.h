@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_SEARCH_H
 #define OPTIMIZER_SEARCH_H
 
-#include "scoring/sweep.h"
+#include "scoring/pattern_kernels.h"
 
 #include <omp.h>
 
@@ -35,7 +35,7 @@ typedef struct {
     bool single;      /* one nozzle alone must cover */
     bool alone;       /* one nozzle covers or none does: single, or any liquid is enough */
     float credit;     /* worth of an uncovered patch per share of the threshold that it has */
-    const sp_sweep_set *sweeps;
+    const sp_pattern_kernels *kernels;
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
@@ -45,7 +45,7 @@ typedef struct {
     float *kept_film;   /* [patch_count], film over what is asked for; NULL where none is */
     float *kept_dry;    /* [patch_count], share of a patch that their edges do not cover */
     bool *port_taken;   /* [mount_count], by a kept nozzle */
-    struct sp_footprints *footprints; /* of poses that no sweep knows; NULL: there are none */
+    struct sp_footprints *footprints; /* of poses that no pattern kernel sums; NULL: there are none */
 } sp_search;
 
 /* The calling thread's own. */

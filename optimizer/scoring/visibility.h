@@ -40,8 +40,8 @@ typedef struct {
     sp_bins bins;
 } sp_visibility;
 
-/* Half-angle (rad) about the site's axis that holds all that its candidates of this launch can reach, those that sweeps
- * know; negative: there are none. */
+/* Half-angle (rad) about the site's axis that holds all that its candidates of this launch can reach, those that
+ * kernels know; negative: there are none. */
 double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
                             size_t launch);
 /* Traces all views on patches as fine as time allows: those of *resampled, or of `fine` itself where that stays NULL.

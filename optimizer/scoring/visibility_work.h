@@ -11,7 +11,8 @@
 
 /* Bytes for all views and footprints. */
 double sp_visibility_memory(const sp_place_options *options);
-/* Of poses that no sweep knows, each of which is traced by itself, the patterns; and how many such poses there are. */
+/* Of poses that no pattern kernel sums, each of which is traced by itself, the patterns; and how many such poses there
+ * are. */
 double sp_visibility_patterns(const sp_sites *sites, const sp_candidates *candidates, double *poses);
 /* What is in sight in view `at`, [sight_bytes]. */
 uint8_t *sp_visibility_sights(const sp_visibility *visibility, size_t at);

@@ -77,7 +77,7 @@ static bool pick(const size_t *sample, const float *field, const sp_coverage_mat
 static bool find_rows(const size_t *sample, const sp_coverage_matrix *matrix, entries *rows, sp_error *error)
 {
     size_t fields = matrix->search->field_count + 1, lacking = 0;
-    int threads = sp_sweeper_threads(matrix->search);
+    int threads = sp_scorer_threads(matrix->search);
     float *scratch = malloc((size_t)threads * fields * sizeof *scratch);
     if (!scratch)
         return sp_fail_memory(error);

@@ -132,7 +132,7 @@ static sp_ranks *ranks_of(const sp_finding *finding)
 static bool anneal_all(const sp_finding *finding, const double *budgets, sp_partial *partials, size_t count)
 {
     sp_error failure = {0};
-    int threads = sp_sweeper_threads(finding->search);
+    int threads = sp_scorer_threads(finding->search);
     /* the last have most nozzles, so that no thread is left alone with one of these */
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t k = 0; k < count; k++) {

@@ -28,7 +28,7 @@ typedef struct {
     float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
     sp_round_best *best; /* [sites x variants] */
     int threads;
-    sp_sweeper *sweepers; /* [threads] */
+    sp_scorer *scorers; /* [threads] */
     bool started;
 } sp_rounds;
 
@@ -51,21 +51,21 @@ static bool rounds_create(const sp_search *search, double power, double budget, 
                           .power = power,
                           .budget = budget,
                           .tie = SP_SCORE_TIE * search->all,
-                          .threads = sp_sweeper_threads(search)};
+                          .threads = sp_scorer_threads(search)};
     rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
     rounds->best = calloc(sites, search->candidates->variant_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
         return sp_fail_memory(error);
     forget_rooms(rounds);
-    rounds->sweepers = sp_sweepers_create(search, rounds->threads, error);
-    return rounds->sweepers;
+    rounds->scorers = sp_scorers_create(search, rounds->threads, error);
+    return rounds->scorers;
 }
 
 static void rounds_free(sp_rounds *rounds)
 {
     free(rounds->room);
     free(rounds->best);
-    sp_sweepers_destroy(rounds->sweepers, rounds->threads);
+    sp_scorers_destroy(rounds->scorers, rounds->threads);
 }
 
 /* The poses of a variant that gained more than all before them, of those within a tie of the highest: the first of the
@@ -100,14 +100,14 @@ static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
 }
 
 /* Scores one site's poses of a variant but those that cannot beat `least`, a merit that some pose of this round has.
- * The sweeper takes the variant where that is needed. */
-static void scan_variant(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *sweeper, uint32_t variant,
+ * The scorer takes the variant where that is needed. */
+static void scan_variant(sp_rounds *rounds, const sp_partial *partial, sp_scorer *scorer, uint32_t variant,
                          size_t number, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     const sp_variant *own = &candidates->variants[variant];
-    sp_round_best *best = &rounds->best[sweeper->site * candidates->variant_count + variant];
-    uint32_t mount = rounds->search->sites->items[sweeper->site].mount;
+    sp_round_best *best = &rounds->best[scorer->site * candidates->variant_count + variant];
+    uint32_t mount = rounds->search->sites->items[scorer->site].mount;
     size_t axes = sp_candidates_axes(candidates, mount, variant)->count;
     double price = pow(sp_outlay_at(rounds->search, mount, own->flow), rounds->power);
     bool taken = false;
@@ -117,18 +117,18 @@ static void scan_variant(sp_rounds *rounds, const sp_partial *partial, sp_sweepe
             if ((double)rounds->room[number] * (1 + 1e-6) + rounds->tie < least * price)
                 continue;
             if (!taken)
-                sp_sweeper_take(sweeper, variant);
+                sp_scorer_take(scorer, variant);
             taken = true;
-            sp_score score = sp_sweeper_score(sweeper, a, r, rise_least(&rise));
+            sp_score score = sp_scorer_score(scorer, a, r, rise_least(&rise));
             rounds->room[number] = (float)score.room;
-            sp_pose pose = {sweeper->site, variant, a, r};
+            sp_pose pose = {scorer->site, variant, a, r};
             rise_note(&rise, pose, sp_gain_at(rounds->search, partial, pose, score.gain), rounds->tie);
         }
     if (rise.count)
         *best = (sp_round_best){rise.step[0].pose, rise.step[0].gain / price, rise.step[0].gain};
 }
 
-static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *sweeper, uint32_t site, double least)
+static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_scorer *scorer, uint32_t site, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     uint32_t mount = rounds->search->sites->items[site].mount;
@@ -138,11 +138,11 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
         size_t number = candidates->pose_start[site];
-        sp_sweeper_look(sweeper, rounds->search, partial, site, s);
+        sp_scorer_look(scorer, rounds->search, partial, site, s);
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
             if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget))
-                scan_variant(rounds, partial, sweeper, (uint32_t)k, number, least);
+                scan_variant(rounds, partial, scorer, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
     }
@@ -170,9 +170,9 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
         if (!sp_partial_affords(search, partial, mount, best->pose.variant, rounds->budget) ||
             !sp_partial_has_place(search, partial, mount))
             continue;
-        sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
+        sp_scorer *scorer = &rounds->scorers[omp_get_thread_num()];
         double gain =
-            sp_gain_at(search, partial, best->pose, sp_score_pose(sweeper, search, partial, best->pose, 0).gain);
+            sp_gain_at(search, partial, best->pose, sp_score_pose(scorer, search, partial, best->pose, 0).gain);
         least = fmax(least, gain / sp_merit_price(search, &best->pose, rounds->power));
     }
     return least;
@@ -244,10 +244,10 @@ static bool scan(sp_rounds *rounds, const sp_partial *partial, double done, sp_d
         for (size_t i = first; i < end; i++) {
             size_t site = sp_strided(i, sites);
             if (sp_ranks_mine(ranks_of(rounds), site))
-                scan_site(rounds, partial, &rounds->sweepers[omp_get_thread_num()], (uint32_t)site, least);
+                scan_site(rounds, partial, &rounds->scorers[omp_get_thread_num()], (uint32_t)site, least);
         }
     }
-    sp_sweepers_forget(rounds->sweepers, rounds->threads);
+    sp_scorers_forget(rounds->scorers, rounds->threads);
     return share_bests(rounds, error);
 }
 

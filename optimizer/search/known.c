@@ -140,8 +140,8 @@ static sp_pose find_pose(const sp_search *search, uint32_t mount, const sp_nozzl
     return (sp_pose){SP_NONE, SP_NONE, SP_NONE, SP_NONE};
 }
 
-/* Adds nozzles without fields. False where some mount, type or number does not allow them, or a type that no sweep
- * knows stands where this search has no candidate. */
+/* Adds nozzles without fields. False where some mount, type or number does not allow them, or a type that no pattern
+ * kernel knows stands where this search has no candidate. */
 static bool admit(const sp_search *search, const sp_found *found, const found_layout *layout, sp_partial *bare)
 {
     for (size_t i = 0; i < layout->count; i++) {

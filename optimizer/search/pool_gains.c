@@ -106,7 +106,7 @@ static bool part_create(const sp_search *search, const sp_pool *pool, float *fie
 
 static bool create_parts(const sp_search *search, sp_pool_gains *gains, sp_error *error)
 {
-    int threads = sp_sweeper_threads(search);
+    int threads = sp_scorer_threads(search);
     size_t fields = search->field_count + 1, lacking = 0;
     float *scratch = malloc((size_t)threads * fields * sizeof *scratch);
     if (!scratch)

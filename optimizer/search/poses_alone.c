@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #define NUMBERS_MOST 2e7 /* that may be kept, of 8 bytes */
-#define SLOW 10          /* times as long as others poses take that no sweep knows, or whose liquid is followed */
+#define SLOW 10 /* times as long as others poses take that no pattern kernel sums, or whose liquid is followed */
 
 /* Of a mounting point, every pose that its mount allows and that does not stand in a wall there. */
 static bool list_site(const sp_search *search, uint32_t site, sp_poses_alone *poses, sp_error *error)

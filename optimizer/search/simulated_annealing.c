@@ -19,7 +19,7 @@ typedef struct {
     const sp_search *search; /* with the credit of now */
     double budget, area;
     uint64_t state;
-    sp_sweeper *sweeper;
+    sp_scorer *scorer;
     sp_partial *partial;
     sp_error *error;
 } sp_annealer;
@@ -57,7 +57,7 @@ static void look(sp_annealer *annealer, uint32_t site, uint32_t variant, double 
         size_t at = poses > POSES ? draw(annealer, poses) : i;
         sp_pose pose = {site, variant, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double least = fmax(GAIN_LEAST * annealer->area, best->merit * price);
-        double gain = sp_score_pose(annealer->sweeper, annealer->search, annealer->partial, pose, least).gain;
+        double gain = sp_score_pose(annealer->scorer, annealer->search, annealer->partial, pose, least).gain;
         gain = sp_gain_at(annealer->search, annealer->partial, pose, gain);
         if (gain > GAIN_LEAST * annealer->area && (gain - SP_SCORE_TIE * annealer->area) / price > best->merit)
             *best = (sp_annealing_choice){pose, gain / price};
@@ -78,7 +78,7 @@ static bool add(sp_annealer *annealer, uint32_t near, double power, bool *added)
             sp_partial_has_place(search, annealer->partial, mount))
             look(annealer, site, variant, power, &best);
     }
-    sp_sweepers_forget(annealer->sweeper, 1);
+    sp_scorers_forget(annealer->scorer, 1);
     *added = best.merit > 0;
     return !*added || sp_partial_add_pose(search, annealer->partial, best.pose, annealer->error);
 }
@@ -175,11 +175,11 @@ bool sp_simulated_annealing(const sp_search *search, double budget, double effor
                             .budget = budget,
                             .area = search->all,
                             .state = seed,
-                            .sweeper = sp_sweepers_create(search, 1, error),
+                            .scorer = sp_scorers_create(search, 1, error),
                             .partial = &moving,
                             .error = error};
-    bool done = annealer.sweeper && anneal(&annealer, &exact, effort, deadline, partial);
-    sp_sweepers_destroy(annealer.sweeper, 1);
+    bool done = annealer.scorer && anneal(&annealer, &exact, effort, deadline, partial);
+    sp_scorers_destroy(annealer.scorer, 1);
     sp_partial_free(&moving);
     sp_partial_refresh(search, partial);
     return done;

@@ -576,7 +576,7 @@ static inline void streams_that_break_up(recount_scene *s, double texel)
     scene_open(s, &b, fmax(texel, DRAG_TEXEL));
 }
 
-/* What no sweep knows, with drag. */
+/* What no pattern kernel sums, with drag. */
 static inline void bodies_of_drops(recount_scene *s, double texel)
 {
     open_bodies_and_boxes(s, SP_TRAJECTORY_DRAG, fmax(texel, DRAG_TEXEL));

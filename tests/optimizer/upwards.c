@@ -323,7 +323,7 @@ static void check_film(const stage *s, const sp_coverage *coverage, const sp_row
     }
 }
 
-/* No pose is worth more than the sweep says, nor than its row; and not much less, so that the prices are good for
+/* No pose is worth more than the kernel says, nor than its row; and not much less, so that the prices are good for
  * something. */
 static void check_prices(stage *s)
 {
@@ -342,17 +342,17 @@ static void check_prices(stage *s)
         for (size_t at = s->order.blocks[block].start; at < s->order.blocks[block + 1].start; at += stride) {
             sp_pose pose = sp_pose_order_at(&s->order, block, at);
             sp_coverage *coverage = coverage_of(s, pose);
-            double exact = worth(s, coverage), swept = (double)last[at];
+            double exact = worth(s, coverage), summed = (double)last[at];
             size_t row = rows.count;
             assert_true(sp_pose_pricing_add(s->poses, pose, &rows, &error));
             if (s->film_need)
                 check_film(s, coverage, &rows, row);
             sp_coverage_destroy(coverage);
             double by_row = sp_rows_price(&rows, row, &s->multipliers);
-            if (exact > swept || exact > by_row)
-                fail_msg("type %zu is worth %.9g, swept %.9g, by its row %.9g",
-                         (size_t)(s->candidates.variants[pose.variant].type - s->type), exact, swept, by_row);
-            prices += swept;
+            if (exact > summed || exact > by_row)
+                fail_msg("type %zu is worth %.9g, summed %.9g, by its row %.9g",
+                         (size_t)(s->candidates.variants[pose.variant].type - s->type), exact, summed, by_row);
+            prices += summed;
             worths += exact;
         }
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);

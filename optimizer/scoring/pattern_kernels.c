@@ -1,24 +1,24 @@
-#include "scoring/sweep.h"
+#include "scoring/pattern_kernels.h"
 
 #include <assert.h>
 
 #if defined __x86_64__ && defined __GNUC__
-extern const sp_sweep_set sp_sweep_avx512, sp_sweep_avx2;
-#define WIDER &sp_sweep_avx512, &sp_sweep_avx2,
+extern const sp_pattern_kernels sp_pattern_kernels_avx512, sp_pattern_kernels_avx2;
+#define WIDER &sp_pattern_kernels_avx512, &sp_pattern_kernels_avx2,
 #else
 #define WIDER
 #endif
-extern const sp_sweep_set sp_sweep_plain;
+extern const sp_pattern_kernels sp_pattern_kernels_plain;
 
-const sp_sweep_set *const sp_sweep_sets[] = {WIDER & sp_sweep_plain};
-const size_t sp_sweep_set_count = sizeof sp_sweep_sets / sizeof *sp_sweep_sets;
+const sp_pattern_kernels *const sp_pattern_kernel_sets[] = {WIDER & sp_pattern_kernels_plain};
+const size_t sp_pattern_kernel_set_count = sizeof sp_pattern_kernel_sets / sizeof *sp_pattern_kernel_sets;
 
-const sp_sweep_set *sp_sweep_best(void)
+const sp_pattern_kernels *sp_pattern_kernels_best(void)
 {
     size_t i = 0;
-    while (!sp_sweep_sets[i]->available())
+    while (!sp_pattern_kernel_sets[i]->available())
         i++;
-    return sp_sweep_sets[i];
+    return sp_pattern_kernel_sets[i];
 }
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)

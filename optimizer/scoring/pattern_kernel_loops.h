@@ -1,9 +1,9 @@
-/* The sweep's loops in terms of SP_LANES floats at a time, the same bits on every instruction set (lanes.h). */
-#ifndef OPTIMIZER_SWEEP_KERNEL_H
-#define OPTIMIZER_SWEEP_KERNEL_H
+/* The kernels' loops in terms of SP_LANES floats at a time, the same bits on every instruction set (lanes.h). */
+#ifndef OPTIMIZER_PATTERN_KERNEL_LOOPS_H
+#define OPTIMIZER_PATTERN_KERNEL_LOOPS_H
 
 #include "nozzle/outline_lanes.h"
-#include "scoring/sweep.h"
+#include "scoring/pattern_kernels.h"
 
 #include <assert.h>
 

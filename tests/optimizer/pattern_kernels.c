@@ -1,4 +1,4 @@
-/* The sweep against one question at a time: what a view holds, what a pose's field is, and what scores add up to. */
+/* The kernels against one question at a time: what a view holds, what a pose's field is, and what scores add up to. */
 #include "prepared.h"
 
 #include "scoring/scoring.h"
@@ -259,26 +259,26 @@ static void every_instruction_set_gives_the_same_bits(void **state)
         for (size_t i = 0; i < view->count; i++)
             for (int k = 0; k < 2; k++)
                 naive[k] += part_of(view, i, &variant->spray, &frame, strength) * (double)items[k][i];
-        for (size_t set = 0; set < sp_sweep_set_count; set++) {
-            const sp_sweep_set *sweeps = sp_sweep_sets[set];
-            if (!sweeps->available())
+        for (size_t set = 0; set < sp_pattern_kernel_set_count; set++) {
+            const sp_pattern_kernels *kernels = sp_pattern_kernel_sets[set];
+            if (!kernels->available())
                 continue;
             const sp_weight weights[2] = {{items[0], totals[0]}, {items[1], totals[1]}};
             for (int k = 0; k < 2; k++)
-                sweeps->total(view, items[k], totals[k]);
-            sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, 0, sums);
+                kernels->total(view, items[k], totals[k]);
+            kernels->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, 0, sums);
             for (int k = 0; k < 2; k++) {
                 double alone;
-                sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, &weights[k], 1, 0, &alone);
+                kernels->sum(&s.ready.visibility.bins, &cull, &region, view, &weights[k], 1, 0, &alone);
                 assert_true(alone == sums[k]);
                 assert_true(fabs(sums[k] - naive[k]) <= 1e-4 * naive[k] + 1e-3);
-                if (sweeps == sp_sweep_best())
+                if (kernels == sp_pattern_kernels_best())
                     first[k] = sums[k];
                 assert_true(sums[k] == first[k]);
             }
             for (double share = 0.5; share < 20; share *= 2) {
                 double least = share * sums[0], early[2];
-                sweeps->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, least, early);
+                kernels->sum(&s.ready.visibility.bins, &cull, &region, view, weights, 2, least, early);
                 bool exact = early[0] == sums[0] && early[1] == sums[1];
                 assert_true(exact || (early[0] >= sums[0] && early[1] >= sums[1] && early[0] < least));
                 told_early += !exact;
@@ -305,7 +305,7 @@ static void scores_are_what_fields_add(void **state)
         float *field = malloc(patches * sizeof *field);
         sp_partial partial;
         assert_true(sp_partial_create(&s.ready.search, &partial, &error));
-        sp_sweeper *sweeper = sp_sweepers_create(&s.ready.search, 1, &error);
+        sp_scorer *scorer = sp_scorers_create(&s.ready.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
         for (size_t p = 0; p < patches; p++) {
@@ -314,7 +314,7 @@ static void scores_are_what_fields_add(void **state)
         }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0);
+            sp_score score = sp_score_pose(scorer, &s.ready.search, &partial, pose, 0);
             sp_field_pose(&s.ready.search, pose, field);
             double gain = sp_field_gain(&s.ready.search, &partial, field), room = 0;
             for (size_t p = 0; p < patches; p++)
@@ -329,15 +329,15 @@ static void scores_are_what_fields_add(void **state)
             total += gain;
         }
         assert_true(total > 0);
-        /* what is wet by now counts only once the sweeper has been told */
+        /* what is wet by now counts only once the scorer has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain;
+        double before = sp_score_pose(scorer, &s.ready.search, &partial, pose, 0).gain;
         for (size_t p = 0; p < patches; p++)
             partial.wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain == before);
-        sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.ready.search, &partial, pose, 0).gain == 0);
-        sp_sweepers_destroy(sweeper, 1);
+        assert_true(before > 0 && sp_score_pose(scorer, &s.ready.search, &partial, pose, 0).gain == before);
+        sp_scorers_forget(scorer, 1);
+        assert_true(sp_score_pose(scorer, &s.ready.search, &partial, pose, 0).gain == 0);
+        sp_scorers_destroy(scorer, 1);
         free(field);
         sp_partial_free(&partial);
         stage_close(&s);

@@ -1,13 +1,13 @@
-/* The sweep: sums, over what a mounting point reaches, of what lies inside a pattern. One loop a pose, whatever is
- * summed; the widest vectors that the processor has, and the same bits on all of them. */
-#ifndef OPTIMIZER_SWEEP_H
-#define OPTIMIZER_SWEEP_H
+/* Pattern kernels: sums, over what a mounting point reaches, of what lies inside a pattern. One loop a pose, whatever
+ * is summed; the widest vectors that the processor has, and the same bits on all of them. */
+#ifndef OPTIMIZER_PATTERN_KERNELS_H
+#define OPTIMIZER_PATTERN_KERNELS_H
 
 #include "scoring/visibility.h"
 
-#define SP_WEIGHTS 2 /* most quantities that one sweep sums */
+#define SP_WEIGHTS 2 /* most quantities that are summed at once */
 
-/* How a sweep counts a patch at a pattern's edge. */
+/* How a kernel counts a patch at a pattern's edge. */
 typedef enum {
     SP_COUNT_SHARE,    /* by what share of it lies inside, as the measure has it */
     SP_COUNT_GENEROUS, /* whole, if it may have any share */
@@ -82,13 +82,13 @@ typedef struct {
      * hoping for: sums[1]. */
     void (*score)(const sp_credit *credit, const sp_wetted *wetted, const float *field, const float *film,
                   double sums[2]);
-} sp_sweep_set;
+} sp_pattern_kernels;
 
 /* All that were compiled, the widest first; the last, which every processor runs, ends the list. */
-extern const sp_sweep_set *const sp_sweep_sets[];
-extern const size_t sp_sweep_set_count;
+extern const sp_pattern_kernels *const sp_pattern_kernel_sets[];
+extern const size_t sp_pattern_kernel_set_count;
 /* The widest that this processor has. */
-const sp_sweep_set *sp_sweep_best(void);
+const sp_pattern_kernels *sp_pattern_kernels_best(void);
 
 /* `strength`: flux over threshold per transfer of a view. `slack`: how far beyond (rad, and as a share of the
  * transfer) an edge may lie, for sums that must not be too small. */
