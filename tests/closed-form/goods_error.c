@@ -9,9 +9,9 @@
 #define SPEED 0.1 /* m/s */
 
 #ifdef SPRAYPLAN_SANITIZE
-#define OFFSETS 2 /* of a nozzle, on each texel */
-#define TRUTH_POINTS 4000
-#define ORDERS 1 /* of a block's faces */
+#define OFFSETS 2          /* of a nozzle, on each texel */
+#define TRUTH_POINTS 60000 /* a doubt of .2 points */
+#define ORDERS 1           /* of a block's faces */
 #else
 #define OFFSETS 8
 #define TRUTH_POINTS 200000
