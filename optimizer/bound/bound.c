@@ -24,9 +24,8 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     }
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
     bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
-    bound->idle = malloc(cover->tier_count * sizeof *bound->idle);
     bound->guess = calloc(cover->tier_count, sizeof *bound->guess);
-    bool done = (bound->by_water && bound->needed && bound->idle && bound->guess) || sp_fail_memory(error);
+    bool done = (bound->by_water && bound->needed && bound->guess) || sp_fail_memory(error);
     if (!done || !sp_knapsack_create(cover->nozzles, cover->water, &bound->knapsack, error)) {
         sp_bound_free(bound);
         return false;
@@ -50,7 +49,6 @@ void sp_bound_free(sp_bound *bound)
     sp_offers_free(&bound->offers);
     free(bound->by_water);
     free(bound->needed);
-    free(bound->idle);
     free(bound->guess);
     sp_knapsack_free(&bound->knapsack);
     *bound = (sp_bound){0};
@@ -86,29 +84,23 @@ void sp_bound_settle(sp_bound *bound)
             bound->by_water[w] = fmin(bound->by_water[w], bound->by_water[w - 1]);
 }
 
-/* Of what is on offer now. */
-static void find_idle(sp_bound *bound, double *idle)
-{
-    sp_knapsack_fill(&bound->knapsack, &bound->offers, bound->cover->water);
-    for (size_t k = 0; k < bound->cover->tier_count; k++)
-        idle[k] = sp_knapsack_idle(&bound->knapsack, bound->cover->weight[k]);
-}
-
+/* As high as the few alone let it be; 0 where all will be offered. */
 static void guess_idle(sp_bound *bound)
 {
-    if (bound->pricer->leaves_idle)
-        find_idle(bound, bound->guess);
+    if (!bound->pricer->leaves_idle)
+        return;
+    sp_knapsack_fill(&bound->knapsack, &bound->offers, bound->cover->water);
     for (size_t k = 0; k < bound->cover->tier_count; k++)
-        bound->guess[k] *= IDLE_SHARE;
+        bound->guess[k] = IDLE_SHARE * sp_knapsack_idle(&bound->knapsack, bound->cover->weight[k]);
 }
 
-/* Where it is not as was guessed, nothing is to be left out the next time. */
+/* Whether it is as was guessed; where not, nothing is to be left out the next time. */
 static bool confirm_idle(sp_bound *bound)
 {
     bool confirmed = true;
-    find_idle(bound, bound->idle);
+    sp_knapsack_fill(&bound->knapsack, &bound->offers, bound->cover->water);
     for (size_t k = 0; k < bound->cover->tier_count; k++)
-        confirmed = confirmed && bound->guess[k] <= bound->idle[k];
+        confirmed = confirmed && bound->guess[k] <= sp_knapsack_idle(&bound->knapsack, bound->cover->weight[k]);
     if (!confirmed) {
         memset(bound->guess, 0, bound->cover->tier_count * sizeof *bound->guess);
         offer_rows(bound);
@@ -118,7 +110,7 @@ static bool confirm_idle(sp_bound *bound)
 
 /* Prices all candidates on top of the few, and fills the knapsack by what they are worth; *whole: it was not broken
  * off. What may be left out is known once all else is on offer: the few let guess it, and where the guess was too high
- * all are priced again. The few are extended the first time: what is best is the same. */
+ * all are priced again. The few are extended once: the second time the best are the same. */
 static bool price_all(sp_bound *bound, bool *whole, sp_error *error)
 {
     sp_pricing_task task = {&bound->dual.multipliers, bound->needed, bound->guess, .all = true, .extend = true};

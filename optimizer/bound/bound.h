@@ -30,9 +30,9 @@ typedef struct {
     const sp_pricer *pricer;
     sp_rows rows; /* the few; a caller may put some in at the start */
     sp_dual dual;
-    double *by_water;     /* [cover->water + 1], with all the nozzles; never falls */
-    double *needed;       /* [tiers], of the next task */
-    double *guess, *idle; /* [tiers], of what may be left out: before it is known, and after */
+    double *by_water; /* [cover->water + 1], with all the nozzles; never falls */
+    double *needed;   /* [tiers], of the next task */
+    double *guess;    /* [tiers], up to which prices are taken to be idle; 0 where nothing is left out */
     sp_knapsack knapsack;
     sp_offers offers;
     uint32_t lightest; /* of the tiers */

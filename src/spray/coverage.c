@@ -1,6 +1,6 @@
 /* Deposits and the figures drawn from them. */
-#include "nozzle_bodies.h"
 #include "falling_film.h"
+#include "nozzle_bodies.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -80,8 +80,9 @@ static bool arrives(const glance *seen)
     return seen->state & (PASSES | PASSES << ARC);
 }
 
-/* Whether spray or shadow may begin or end between two places; a thin spray may do both. An arc that is in the spray at
- * both and arrives from behind, too slowly or too slanted does not arrive otherwise in between. */
+/* Whether spray or shadow may begin or end between two places; a thin spray may do both. What is in the spray at
+ * both and arrives from behind, too slowly or too slanted is taken to do so in between: it could arrive as asked for
+ * less than a step alone, where a wall passes the nozzle within a fraction of one. */
 static bool changes(const glance *from, const glance *to)
 {
     if (from->state != to->state)

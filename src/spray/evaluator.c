@@ -1,10 +1,10 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "auto_settings.h"
 #include "clock.h"
+#include "falling_film.h"
 #include "movers.h"
 #include "nozzle/valid.h"
 #include "resolution.h"
-#include "falling_film.h"
 #include "spray/wet/wet.h"
 
 #include <stdio.h>

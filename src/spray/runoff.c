@@ -1,7 +1,7 @@
 /* Film, or the dose of goods that move, nozzle by nozzle, for who adds up those of many layouts. */
-#include "stream_spread.h"
-#include "nozzle/pattern.h"
 #include "falling_film.h"
+#include "nozzle/pattern.h"
+#include "stream_spread.h"
 
 #include <stdlib.h>
 #include <string.h>

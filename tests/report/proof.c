@@ -88,18 +88,25 @@ static void assert_bounds_end_at_their_points(const char *html)
     assert_int_equal(bound[read], '"');
 }
 
-/* The fixture's proposal with bounds on `front`, to which it then points, and a certificate. */
-static sp_proposal with_bounds(const fixture *f, sp_front_point front[3])
+typedef struct {
+    sp_front_point front[3];
+    sp_proposal proposal;
+    sp_result result;
+} proved_result;
+
+/* The fixture's result with bounds along the front, and a certificate. */
+static void prove(const fixture *f, proved_result *p)
 {
+    *p = (proved_result){.proposal = f->proposal, .result = f->result};
     for (int i = 0; i < 3; i++) {
-        front[i] = f->front[i];
-        front[i].counted = 6 + i;
-        front[i].bound = 8 + 0.5 * i;
-        front[i].every_aim_bound = 9 + 0.25 * i;
+        p->front[i] = f->front[i];
+        p->front[i].counted = 6 + i;
+        p->front[i].bound = 8 + 0.5 * i;
+        p->front[i].every_aim_bound = 9 + 0.25 * i;
     }
-    sp_proposal proposal = f->proposal;
-    proposal.front = front;
-    proposal.certificate = (sp_certificate){
+    p->result.proposal = &p->proposal;
+    p->proposal.front = p->front;
+    p->proposal.certificate = (sp_certificate){
         .computed = true,
         .texels = 20011,
         .candidates = 123456,
@@ -110,7 +117,17 @@ static sp_proposal with_bounds(const fixture *f, sp_front_point front[3])
         .water_bound = 31.29 / 6e4,
         .gap = 0.10667,
         .every_aim = {.computed = true, .places = 56, .area_bound = 9.5, .water_bound = 23.45 / 6e4, .gap = 0.1537}};
-    return proposal;
+}
+
+/* The caller frees. */
+static json_t *proved_json(const proved_result *p)
+{
+    sp_error error = {0};
+    char *text = sp_result_json(&p->result, &error);
+    assert_non_null(text);
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    free(text);
+    return all;
 }
 
 static void without_a_certificate_nothing_is_claimed(void **state)
@@ -128,11 +145,9 @@ static void the_page_says_what_is_proved(void **state)
 {
     const fixture *f = *state;
     sp_error error = {0};
-    sp_front_point front[3];
-    sp_proposal proposal = with_bounds(f, front);
-    sp_result result = f->result;
-    result.proposal = &proposal;
-    char *html = sp_report_html(&result, &error);
+    proved_result p;
+    prove(f, &p);
+    char *html = sp_report_html(&p.result, &error);
     assert_non_null(strstr(html,
                            "Among these 123456 candidate poses and the proposal&#39;s own, on 20011 texels, no layout "
                            "reaches 80.5&nbsp;% with less than 31.2&nbsp;L/min. Poses between candidates are not "
@@ -144,8 +159,8 @@ static void the_page_says_what_is_proved(void **state)
     assert_null(strstr(html, "is not known"));
     free(html);
     /* not those that the search says it looked at */
-    proposal.candidates = 200000;
-    html = sp_report_html(&result, &error);
+    p.proposal.candidates = 200000;
+    html = sp_report_html(&p.result, &error);
     assert_non_null(strstr(html, "Among these 123456 candidate poses (of 200000; the others are in ports that kept "
                                  "nozzles hold, or were not traced in time) and the proposal"));
     free(html);
@@ -154,13 +169,9 @@ static void the_page_says_what_is_proved(void **state)
 static void a_certificate_is_reported_in_full(void **state)
 {
     const fixture *f = *state;
-    sp_error error = {0};
-    sp_front_point front[3];
-    sp_proposal proposal = with_bounds(f, front);
-    sp_result result = f->result;
-    result.proposal = &proposal;
-    char *text = sp_result_json(&result, &error);
-    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *certificate = json_object_get(all, "certificate");
+    proved_result p;
+    prove(f, &p);
+    json_t *all = proved_json(&p), *certificate = json_object_get(all, "certificate");
     EXPECT_KEYS(certificate, "method", "coverage", "coverage_bound_same_water", "water_bound_same_coverage_l_min",
                 "gap", "candidates", "own_poses", "texels", "every_aim");
     assert_true(fabs(real_of(certificate, "coverage_bound_same_water") - 0.90001) < 1e-12);
@@ -172,30 +183,24 @@ static void a_certificate_is_reported_in_full(void **state)
     assert_true(fabs(real_of(every, "coverage_bound_same_water") - 0.95) < 1e-12);
     assert_true(real_of(every, "gap") == 0.1537 && real_of(every, "mounting_points") == 56);
     json_decref(all);
-    free(text);
 }
 
 static void bounds_along_the_front_are_reported(void **state)
 {
     const fixture *f = *state;
-    sp_error error = {0};
-    sp_front_point front[3];
-    sp_proposal proposal = with_bounds(f, front);
-    sp_result result = f->result;
-    result.proposal = &proposal;
-    char *text = sp_result_json(&result, &error);
-    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *points = json_object_get(all, "front");
+    proved_result p;
+    prove(f, &p);
+    json_t *all = proved_json(&p), *points = json_object_get(all, "front");
     EXPECT_KEYS(json_array_get(points, 0), "water_l_min", "coverage", "nozzles", "coverage_on_texels", "coverage_bound",
                 "coverage_bound_every_aim");
     for (size_t i = 0; i < 3; i++) {
         const json_t *point = json_array_get(points, i);
-        assert_true(fabs(real_of(point, "water_l_min") - 6e4 * front[i].flow) < 1e-9);
-        assert_true(fabs(real_of(point, "coverage_on_texels") - front[i].counted / 10) < 1e-12);
-        assert_true(fabs(real_of(point, "coverage_bound") - front[i].bound / 10) < 1e-12);
-        assert_true(fabs(real_of(point, "coverage_bound_every_aim") - front[i].every_aim_bound / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "water_l_min") - 6e4 * p.front[i].flow) < 1e-9);
+        assert_true(fabs(real_of(point, "coverage_on_texels") - p.front[i].counted / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "coverage_bound") - p.front[i].bound / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "coverage_bound_every_aim") - p.front[i].every_aim_bound / 10) < 1e-12);
     }
     json_decref(all);
-    free(text);
 }
 
 /* The chart's section of a result of two alternatives, of which `proved` many have a certificate, the proposed one
