@@ -1,6 +1,7 @@
 #include "refine/hurry.h"
 
 #include "ranking/ranking.h"
+#include "refine/more_water.h"
 #include "refine/saving.h"
 
 #include <stdlib.h>
@@ -43,7 +44,17 @@ static double outlay_at_target(const sp_front *front, double outlay, double area
     return outlay * (1 + MISSING_COST * fmax(0, 1 - area / front->target));
 }
 
-/* Keeps those few that promise to reach the target with least water; all where there are no more. */
+/* How late a layout is to be tried. */
+static double lateness(const sp_front *front, const sp_partial *other)
+{
+    if (!aims_at_target(front))
+        return -other->covered;
+    bool promising = other->covered >= front->target * (1 - PROMISING);
+    return promising ? outlay_at_target(front, other->outlay, other->covered) : INFINITY;
+}
+
+/* Keeps those few that promise to reach the target with least water, or where as much as possible is to be covered,
+ * most; all where there are no more. */
 static bool keep_promising(const sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;
@@ -51,11 +62,8 @@ static bool keep_promising(const sp_refining *refining, sp_trials *trials)
     sp_ranked *ranked = malloc((count + 1) * sizeof *ranked);
     bool *kept = calloc(count + 1, sizeof *kept);
     bool done = (ranked && kept) || sp_fail_memory(refining->error);
-    for (size_t i = 0; done && i < count; i++) {
-        const sp_partial *other = &trials->items[i].other;
-        bool promising = other->covered >= front->target * (1 - PROMISING);
-        ranked[i] = (sp_ranked){promising ? outlay_at_target(front, other->outlay, other->covered) : INFINITY, i};
-    }
+    for (size_t i = 0; done && i < count; i++)
+        ranked[i] = (sp_ranked){lateness(front, &trials->items[i].other), i};
     if (done) {
         sp_rank_rising(ranked, count);
         for (size_t k = 0; k < count && k < RUNGS_TRIED; k++)

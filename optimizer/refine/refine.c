@@ -2,6 +2,7 @@
 
 #include "scoring/prepare.h"
 #include "refine/hurry.h"
+#include "refine/more_water.h"
 #include "refine/saving.h"
 
 #include <stdlib.h>
@@ -100,7 +101,8 @@ static bool search_front_locally(sp_refining *refining)
         ask_others(refining, &trials, true) && sp_ask_more(refining, &trials) && sp_find_others(refining, &trials);
     if (done)
         choose_others(&trials);
-    done = done && try_fewest(refining, &trials) && sp_trials_carry_out(refining, &trials);
+    done = done && try_fewest(refining, &trials) && sp_try_turned_up(refining, &trials) &&
+           sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }
@@ -111,7 +113,7 @@ static bool recombine_front(sp_refining *refining)
     sp_trials trials = {0};
     bool done = ask_others(refining, &trials, false) && ask_savings(refining, &trials) &&
                 sp_ask_more(refining, &trials) && sp_find_others(refining, &trials) && drop_others(refining, &trials) &&
-                sp_trials_carry_out(refining, &trials);
+                sp_try_turned_up(refining, &trials) && sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }
@@ -162,7 +164,7 @@ static bool refine_all(sp_refining *refining)
         return false;
     bool saves = sp_front_saves(front);
     return recombine_front(refining) && (!saves || sp_save_water(refining)) && recombine_front(refining) &&
-           (!saves || sp_reach_target(refining)) && sharpen_often(refining, saves);
+           (saves ? sp_reach_target(refining) : sp_cover_more(refining)) && sharpen_often(refining, saves);
 }
 
 bool sp_refine_asked(const sp_refine *refine)

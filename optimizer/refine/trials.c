@@ -5,8 +5,6 @@
 
 #include <stdlib.h>
 
-#define TURNS_UP 6 /* amounts of water above the front's, evenly by their logarithm */
-
 static void trial_free(sp_trial *trial)
 {
     sp_partial_free(&trial->partial);
@@ -61,30 +59,6 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
     while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.outlay <= outlay * (1 + SP_ROUNDING))
         i++;
     return sp_try_also(refining, trials, &front->by_water.entries[i].partial, outlay, SP_TRIAL_OTHER);
-}
-
-/* The outlay of the layout with all of its nozzles turned up as far as they can be, within what is allowed. */
-static double turned_up(const sp_search *search, const sp_partial *partial)
-{
-    double outlay = partial->outlay;
-    for (size_t i = 0; i < partial->count; i++)
-        outlay += sp_most_flow(search, &partial->items[i]) - partial->items[i].flow;
-    return fmin(outlay, search->outlay_most);
-}
-
-double sp_best_budget(const sp_refining *refining)
-{
-    const sp_front *front = refining->front;
-    return sp_front_saves(front) ? front->best.outlay : turned_up(refining->search, &front->best);
-}
-
-bool sp_ask_more(sp_refining *refining, sp_trials *trials)
-{
-    double outlay = refining->front->best.outlay, most = sp_best_budget(refining);
-    for (int i = 1; i <= TURNS_UP && most > outlay * (1 + SP_GAIN_LEAST); i++)
-        if (!sp_ask_other(refining, trials, outlay * pow(most / outlay, (double)i / TURNS_UP)))
-            return false;
-    return true;
 }
 
 bool sp_find_others(sp_refining *refining, sp_trials *trials)

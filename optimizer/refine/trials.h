@@ -26,14 +26,8 @@ bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *par
                  sp_trial_kind kind);
 /* A trial of another layout for so much water, to be better than what the front has for no more. */
 bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
-/* What the best layout may take (m³/s of outlay) to cover more: what it takes, or where what is asked for is out of its
- * reach, as much as its nozzles can be turned up to. */
-double sp_best_budget(const sp_refining *refining);
-/* Trials of other layouts for more water than the best takes, up to that. The candidates have each type at one flow, so
- * that nothing else tries more. */
-bool sp_ask_more(sp_refining *refining, sp_trials *trials);
-/* Finds the trials' other layouts: of the pool at the flows that refinement may set, and of nozzles that the front's
- * layouts have already, put together anew. */
+/* Finds the trials' other layouts: of the pool at angles and flows that refinement may set, and of nozzles that the
+ * front's layouts have already, put together anew. */
 bool sp_find_others(sp_refining *refining, sp_trials *trials);
 /* Searches locally from the trials and lets the front have them. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials);

@@ -3,31 +3,71 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define ANGLES 3         /* a variant's own, and one to each side */
 #define FLOWS 5          /* evenly over what refinement may set */
 #define FLOW_APART 0.001 /* share by which two flows differ */
+#define SETTINGS (ANGLES * (FLOWS + 1))
 
-/* The original's variants and behind them the adjustable ones at other flows; base[i]: the original of variant i. */
+/* The variant's own angle, and of one at its type's own those halfway to the ends of what refinement may set, where the
+ * candidates are; returns how many. */
+static size_t list_angles(const sp_search *search, const sp_variant *own, double angles[ANGLES])
+{
+    double low, high, rated = own->type->angle;
+    size_t count = 0;
+    angles[count++] = own->angle;
+    sp_angle_range(search->options, own->type, &low, &high);
+    if (own->angle == rated && low < rated)
+        angles[count++] = 0.5 * (low + rated);
+    if (own->angle == rated && high > rated)
+        angles[count++] = 0.5 * (high + rated);
+    return count;
+}
+
+/* The variant's own flow, and others that refinement may set; returns how many. */
+static size_t list_flows(const sp_search *search, const sp_variant *own, double flows[FLOWS + 1])
+{
+    double low, high;
+    size_t count = 0;
+    flows[count++] = own->flow;
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), own->type, own->pressure, &low, &high);
+    for (size_t i = 0; i < FLOWS && high > low * (1 + FLOW_APART); i++) {
+        double flow = low + (high - low) * (double)i / (FLOWS - 1);
+        if (fabs(flow - own->flow) > FLOW_APART * flow)
+            flows[count++] = flow;
+    }
+    return count;
+}
+
+/* Behind the others those that variant k becomes at other angles and flows. */
+static void add_settings(const sp_search *search, size_t k, sp_candidates *candidates, size_t *base)
+{
+    const sp_variant *own = &search->candidates->variants[k];
+    double angles[ANGLES], flows[FLOWS + 1];
+    size_t angle_count = list_angles(search, own, angles), flow_count = list_flows(search, own, flows);
+    for (size_t a = 0; a < angle_count; a++)
+        for (size_t f = a == 0; f < flow_count; f++) {
+            sp_variant variant = *own;
+            variant.angle = angles[a];
+            variant.flow = flows[f];
+            variant.spray = sp_spray_create(own->type, angles[a]);
+            variant.reach = sp_type_reach(own->type, angles[a]);
+            base[candidates->variant_count] = k;
+            candidates->variants[candidates->variant_count++] = variant;
+        }
+}
+
+/* The original's variants and behind them the adjustable ones at other settings; base[i]: the original of variant i. */
 static bool list_variants(const sp_search *search, sp_candidates *candidates, size_t *base)
 {
     const sp_candidates *from = search->candidates;
-    candidates->variants = malloc((FLOWS + 1) * from->variant_count * sizeof *candidates->variants);
+    candidates->variants = malloc(SETTINGS * from->variant_count * sizeof *candidates->variants);
     if (!candidates->variants)
         return false;
     memcpy(candidates->variants, from->variants, from->variant_count * sizeof *from->variants);
     for (size_t k = 0; k < from->variant_count; k++)
         base[k] = k;
-    for (size_t k = 0; k < from->variant_count; k++) {
-        double low, high;
-        sp_variant variant = from->variants[k];
-        sp_flow_range(search->options, sp_evaluator_setup(search->coarse), variant.type, variant.pressure, &low, &high);
-        for (size_t i = 0; i < FLOWS && high > low * (1 + FLOW_APART); i++) {
-            variant.flow = low + (high - low) * (double)i / (FLOWS - 1);
-            if (fabs(variant.flow - from->variants[k].flow) <= FLOW_APART * variant.flow)
-                continue;
-            base[candidates->variant_count] = k;
-            candidates->variants[candidates->variant_count++] = variant;
-        }
-    }
+    for (size_t k = 0; k < from->variant_count; k++)
+        add_settings(search, k, candidates, base);
     return true;
 }
 
@@ -58,7 +98,7 @@ static bool list_poses(const sp_pool *from, const size_t *base, sp_tuned *tuned,
 bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tuned, sp_error *error)
 {
     const sp_candidates *from = search->candidates;
-    size_t *base = malloc((FLOWS + 1) * from->variant_count * sizeof *base);
+    size_t *base = malloc(SETTINGS * from->variant_count * sizeof *base);
     *tuned = (sp_tuned){.candidates = *from, .search = *search};
     tuned->candidates.variants = NULL;
     tuned->candidates.axes = NULL;

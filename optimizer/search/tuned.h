@@ -1,12 +1,12 @@
-/* Candidates at flows that refinement may set and the candidates themselves do not hold. */
+/* Candidates at angles and flows that refinement may set and the candidates themselves do not hold. */
 #ifndef OPTIMIZER_TUNED_H
 #define OPTIMIZER_TUNED_H
 
 #include "scoring/partial.h"
 #include "search/pool.h"
 
-/* The search over the pool's poses, those of adjustable variants at several flows each. What is built of them says its
- * flows itself, so that it belongs to the original search as well. */
+/* The search over the pool's poses, those of adjustable variants at several angles and flows each. What is built of
+ * them says these itself, so that it belongs to the original search as well. */
 typedef struct {
     sp_candidates candidates; /* the original's variants first; poses are not numbered */
     sp_search search;
