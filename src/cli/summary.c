@@ -406,6 +406,16 @@ static void print_own_better(const sp_result *result, const sp_figures *figures)
         printf("\n%s\n", text);
 }
 
+/* Nozzles that cannot all be mounted where they are listed. */
+static void print_overlaps(const sp_result *result, const sp_figures *figures)
+{
+    for (size_t i = 0, listed = 0; i < result->design_count; i++)
+        for (size_t k = 0; k < figures[i].nozzle_count; k++)
+            if (figures[i].nozzles[k].overlap[0])
+                printf("%swarning: %s: %s\n", listed++ ? "" : "\n", result->designs[i].name,
+                       figures[i].nozzles[k].overlap);
+}
+
 /* What is checked and proved of the proposal, or of each alternative. */
 static void print_proofs(const sp_result *result)
 {
@@ -451,6 +461,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
         print_figures(&figures[i], result->designs[i].name, width);
     print_proposed(result);
     print_own_better(result, figures);
+    print_overlaps(result, figures);
     print_dose(result, figures, width);
     print_errors(result, figures, width);
     print_choice(result, figures);
