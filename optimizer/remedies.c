@@ -1,6 +1,7 @@
 #include "remedies.h"
 
 #include "attainable/patch_at.h"
+#include "scoring/bodies.h"
 #include "scoring/partial_packing.h"
 #include "spray/criterion.h"
 
@@ -120,7 +121,8 @@ static void scan_site(remedying *r, const sp_partial *partial, uint32_t site)
     for (size_t s = 0; s < candidates->launch_count; s++) {
         sp_scorer_look(scorer, &r->masked, partial, site, s);
         for (uint32_t k = 0; k < candidates->variant_count; k++)
-            if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k))
+            if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k) &&
+                sp_bodies_clear_at(&r->masked, partial, &(sp_pose){.site = site, .variant = k}))
                 scan_variant(r, partial, scorer, k, &r->best[site]);
     }
 }

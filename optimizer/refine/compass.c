@@ -1,6 +1,7 @@
 #include "refine/compass.h"
 
 #include "refine/move.h"
+#include "scoring/bodies.h"
 #include "scoring/scoring.h"
 
 #include <stdlib.h>
@@ -56,6 +57,8 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     bool promising = elsewhere || parameters.kind[k] != SP_UNKNOWN_PLACE;
+    if (elsewhere && !sp_bodies_clear(needle->search, needle->partial, trial.nozzle.type, trial.nozzle.position))
+        return true;
     if (elsewhere && !is_promising(needle, &trial, &promising))
         return false;
     if (!promising)

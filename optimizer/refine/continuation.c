@@ -1,6 +1,7 @@
 #include "refine/continuation.h"
 
 #include "refine/move.h"
+#include "scoring/bodies.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -149,7 +150,8 @@ static bool step(const sp_continuing *continuing, size_t width, sp_partial *part
 /* Takes the copy over where it covers more with no more water. */
 static void keep_better(const sp_search *search, sp_partial *partial, sp_partial *copy, double water)
 {
-    bool better = sp_covers_more(search, copy, partial) && copy->flow <= water * (1 + SP_ROUNDING);
+    bool better = sp_covers_more(search, copy, partial) && copy->flow <= water * (1 + SP_ROUNDING) &&
+                  sp_bodies_all_clear(search, copy);
     sp_partial_free(better ? partial : copy);
     if (better)
         *partial = *copy;

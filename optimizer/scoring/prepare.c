@@ -41,6 +41,7 @@ static bool keep(sp_search *search, const sp_nozzle *nozzle, sp_error *error)
     sp_footprint footprint;
     search->kept[search->kept_count++] = *nozzle;
     search->kept_flow += sp_nozzle_flow(nozzle, &setup->liquid);
+    search->bodies |= nozzle->type->body > 0;
     for (size_t m = 0; m < search->options->mount_count; m++)
         search->port_taken[m] |= search->options->mounts[m].kind == SP_MOUNT_PORT &&
                                  sp_port_holds(&search->options->mounts[m], nozzle->position, tolerance);
@@ -122,6 +123,8 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .single = criterion->combine == SP_COMBINE_SINGLE,
                           .alone = criterion->combine == SP_COMBINE_SINGLE || threshold <= 0,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
+    for (size_t t = 0; t < options->type_count; t++)
+        search->bodies |= options->types[t]->body > 0;
     bool done = set_patches(search, error) && kept_create(search, false, error) &&
                 sp_footprints_create(search, &search->footprints, error);
     if (!done) {

@@ -45,6 +45,7 @@ typedef struct {
     float *kept_film;   /* [patch_count], film over what is asked for; NULL where none is */
     float *kept_dry;    /* [patch_count], share of a patch that their edges do not cover */
     bool *port_taken;   /* [mount_count], by a kept nozzle */
+    bool bodies;        /* some type or kept nozzle has one: two may overlap */
     struct sp_footprints *footprints; /* of poses that no pattern kernel sums; NULL: there are none */
 } sp_search;
 

@@ -1,5 +1,7 @@
 #include "search/exhaustive.h"
 
+#include "nozzle/body.h"
+#include "scoring/bodies.h"
 #include "scoring/mount_capacity.h"
 #include "spray/criterion.h"
 
@@ -33,6 +35,22 @@ static double flow_of(const walker *w, size_t pose)
     return w->search->candidates->variants[w->poses->poses[pose].variant].flow;
 }
 
+/* Bodies do not overlap, which are the kept nozzles', too. */
+static bool is_clear(const walker *w, size_t pose)
+{
+    const sp_search *search = w->search;
+    const sp_pose *own = &w->poses->poses[pose];
+    const sp_nozzle_type *type = search->candidates->variants[own->variant].type;
+    sp_vec3 position = search->sites->items[own->site].position;
+    bool clear = sp_clear_of_kept(search, type, position);
+    for (size_t i = 0; clear && i < w->now.count; i++) {
+        const sp_pose *other = &w->poses->poses[w->now.pose[i]];
+        clear = !sp_bodies_overlap(type, search->candidates->variants[other->variant].type,
+                                   sp_distance(position, search->sites->items[other->site].position));
+    }
+    return clear;
+}
+
 static bool has_place(const walker *w, size_t pose)
 {
     uint32_t mount = mount_of(w, pose);
@@ -42,7 +60,7 @@ static bool has_place(const walker *w, size_t pose)
     for (size_t i = 0; i < w->now.count; i++)
         there += mount_of(w, w->now.pose[i]) == mount;
     return there < sp_mount_left(w->search, mount) && sp_number_allows(w->search, w->now.count) &&
-           outlay <= w->limits.outlay && flow <= w->limits.water;
+           outlay <= w->limits.outlay && flow <= w->limits.water && is_clear(w, pose);
 }
 
 /* What a pose and those before it come to on all patches; m² that they cover. */
@@ -163,12 +181,22 @@ static int cheapest_first(const void *left, const void *right)
     return memcmp(a->pose, b->pose, sizeof a->pose);
 }
 
+/* Whether every type that the mount is offered has a body, of which no two are in one place. */
+static bool all_have_bodies(const sp_search *search, uint32_t mount)
+{
+    bool all = true;
+    for (size_t k = 0; k < search->candidates->variant_count; k++)
+        all = all && (!sp_candidates_axes(search->candidates, mount, k)->count ||
+                      search->candidates->variants[k].type->body > 0);
+    return all;
+}
+
 /* Whether all that a layout may be is among those that take no pose twice. */
 static bool is_whole(const sp_search *search)
 {
     bool once = true;
     for (uint32_t m = 0; m < search->options->mount_count; m++)
-        once = once && sp_mount_left(search, m) <= 1;
+        once = once && (sp_mount_left(search, m) <= 1 || all_have_bodies(search, m));
     return once || (search->alone && !search->runoffs);
 }
 

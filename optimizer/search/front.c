@@ -2,6 +2,7 @@
 
 #include "mesh/grow.h"
 #include "ranks/messages.h"
+#include "scoring/bodies.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -253,10 +254,12 @@ bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_er
     return done;
 }
 
-/* A layout that has been measured, into the fronts. */
+/* A layout that has been measured, into the fronts, if its bodies allow that it be built. */
 static bool enter(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
                   sp_error *error)
 {
+    if (!sp_bodies_all_clear(search, partial))
+        return true;
     if (!note(&front->by_water, by_water, tie_of(front), search, partial, point, error) ||
         !note(&front->by_number, by_number, tie_of(front), search, partial, point, error))
         return false;

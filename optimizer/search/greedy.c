@@ -2,6 +2,7 @@
 
 #include "ranking/ranking.h"
 #include "ranks/messages.h"
+#include "scoring/bodies.h"
 #include "scoring/strided.h"
 
 #include <omp.h>
@@ -141,7 +142,8 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_scorer *s
         sp_scorer_look(scorer, rounds->search, partial, site, s);
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
-            if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget))
+            if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget) &&
+                sp_bodies_clear(rounds->search, partial, variant->type, rounds->search->sites->items[site].position))
                 scan_variant(rounds, partial, scorer, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
@@ -168,7 +170,7 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
         if (!sp_partial_affords(search, partial, mount, best->pose.variant, rounds->budget) ||
-            !sp_partial_has_place(search, partial, mount))
+            !sp_partial_has_place(search, partial, mount) || !sp_bodies_clear_at(search, partial, &best->pose))
             continue;
         sp_scorer *scorer = &rounds->scorers[omp_get_thread_num()];
         double gain =

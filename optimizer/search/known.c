@@ -1,5 +1,6 @@
 #include "search/known.h"
 
+#include "scoring/bodies.h"
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 
@@ -152,7 +153,8 @@ static bool admit(const sp_search *search, const sp_found *found, const found_la
         const sp_nozzle *offered = changed ? &item->nozzle : &item->origin;
         item->site.mount = mount_like(search, &found->mounts[item->site.mount]);
         if (item->site.mount == SP_NONE || !is_offered(search, item->site.mount, offered) ||
-            !sp_partial_has_place(search, bare, item->site.mount))
+            !sp_partial_has_place(search, bare, item->site.mount) ||
+            !sp_bodies_clear(search, bare, item->nozzle.type, item->nozzle.position))
             return false;
         item->pose = find_pose(search, item->site.mount, &item->origin);
         if (!sp_type_is_uniform(item->nozzle.type) && (changed || item->pose.site == SP_NONE))

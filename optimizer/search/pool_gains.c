@@ -1,6 +1,7 @@
 #include "search/pool_gains.h"
 
 #include "ranks/messages.h"
+#include "scoring/bodies.h"
 #include "scoring/field.h"
 #include "scoring/footprints.h"
 #include "scoring/scoring.h"
@@ -234,7 +235,7 @@ static bool allowed(const sp_search *search, const sp_partial *partial, sp_pose 
     uint32_t mount = search->sites->items[pose.site].mount;
     return sp_ranks_mine(search->options->run.ranks, pose.site) &&
            sp_partial_affords(search, partial, mount, pose.variant, budget) &&
-           sp_partial_has_place(search, partial, mount);
+           sp_partial_has_place(search, partial, mount) && sp_bodies_clear_at(search, partial, &pose);
 }
 
 /* The scores of the others' poses that are above 0. */

@@ -128,8 +128,9 @@ static const sp_key type_keys[] = {
      .kind = SP_KEY_QUANTITY,
      .dimension = &sp_length_unit,
      .range = SP_ABOVE(0),
-     .absent = "it passes every port",
-     .says = "The diameter of the hole that it passes"},
+     .absent = "it passes every port, and several may be proposed in one place but a port",
+     .says = "The diameter of the hole that it passes. Nozzles are not proposed nearer to each other than their bodies "
+             "allow"},
     {.name = "step",
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_type_step,

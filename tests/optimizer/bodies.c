@@ -1,0 +1,306 @@
+/* Nozzles whose bodies would overlap are not proposed, and not proved against, where their types say how wide these
+ * are. */
+#include "prepared.h"
+
+#include "refine/compass.h"
+#include "scoring/bodies.h"
+#include "search/exchange.h"
+#include "search/find.h"
+#include "search/front.h"
+#include "search/selection.h"
+#include "search/simulated_annealing.h"
+
+#define BODY 0.15
+#define TOUCH (BODY * (1 - 1e-6)) /* bodies that touch do not overlap */
+
+typedef struct {
+    room room;
+    sp_nozzle_type types[2];
+    const sp_nozzle_type *listed[2];
+    double pressure;
+    sp_mount mount;
+    sp_place_options options;
+} job;
+
+/* A room of 1 m with a line of points 0.1 m apart near its lid. Only two cones in one place, of another type each,
+ * bring the floor what it needs. */
+static void job_open(job *j, double body)
+{
+    room_builder b = {0};
+    room_box(&b, sp_v(0, 0, 0), sp_v(1, 1, 1), "walls", "lid");
+    *j = (job){.pressure = 2e5, .room = {.setup = sp_setup_default()}, .options = room_options()};
+    j->room.setup.criterion.flux = 12 * LITRES_PER_MINUTE;
+    j->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
+    room_open(&j->room, &b, 0.1);
+    j->types[0] = room_cone("narrow", 60 * DEGREE, 6);
+    j->types[1] = room_cone("wide", 70 * DEGREE, 8);
+    for (size_t i = 0; i < 2; i++) {
+        j->types[i].body = body;
+        j->listed[i] = &j->types[i];
+    }
+    j->mount = (sp_mount){.kind = SP_MOUNT_LINE,
+                          .from = sp_v(0.3, 0.5, 0.9),
+                          .to = sp_v(0.7, 0.5, 0.9),
+                          .axis = sp_v(0, 0, -1),
+                          .spacing = 0.1};
+    j->options.types = j->listed;
+    j->options.type_count = 2;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = &j->mount;
+    j->options.mount_count = 1;
+    j->options.max_nozzles = 2;
+    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    j->options.coverage = 1;
+}
+
+/* m between the two nozzles that are nearest. */
+static double nearest(const sp_layout *layout)
+{
+    double distance = INFINITY;
+    for (size_t i = 0; i < layout->count; i++)
+        for (size_t k = 0; k < i; k++)
+            distance = fmin(distance, sp_distance(layout->nozzles[i].position, layout->nozzles[k].position));
+    return distance;
+}
+
+/* The same of the proposal, or of the best on the candidates, whichever is less. */
+static double apart(job *j, double *bound)
+{
+    sp_error error = {0};
+    sp_proposal *proposal = sp_place(j->room.evaluator, &j->options, &error);
+    assert_string_equal(error.message, "");
+    room_check(proposal, &j->options);
+    assert_true(proposal->layout->count > 1);
+    double distance = fmin(nearest(proposal->layout), nearest(proposal->greedy));
+    *bound = proposal->certificate.area_bound;
+    assert_true(proposal->certificate.computed);
+    sp_proposal_destroy(proposal);
+    return distance;
+}
+
+/* By every layout looked at, by search, and with refinement. */
+static void bodies_keep_clear(void **state)
+{
+    (void)state;
+    static const struct {
+        double spacing;
+        size_t nozzles;
+        double position;
+    } cases[] = {{0.1, 2, 0}, {0.005, 3, 0}, {0.1, 2, 0.05}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int given = 0; given <= 1; given++) {
+            job j;
+            double bound;
+            job_open(&j, given ? BODY : 0);
+            j.mount.spacing = cases[i].spacing;
+            j.options.max_nozzles = cases[i].nozzles;
+            j.options.refine.position = cases[i].position;
+            double distance = apart(&j, &bound);
+            if (given ? distance < TOUCH : distance > 0.5 * BODY)
+                fail_msg("case %zu: %g m apart", i, distance);
+            room_close(&j.room);
+        }
+}
+
+/* The bound is of layouts that can be built: looser where two may be in one place. */
+static void the_proof_is_of_what_can_be_built(void **state)
+{
+    (void)state;
+    job j;
+    double with, without;
+    job_open(&j, BODY);
+    apart(&j, &with);
+    room_close(&j.room);
+    job_open(&j, 0);
+    apart(&j, &without);
+    room_close(&j.room);
+    assert_true(with < 0.95 * without);
+}
+
+/* A kept nozzle has a body, too. */
+static void kept_bodies_keep_clear(void **state)
+{
+    (void)state;
+    job j;
+    sp_error error = {0};
+    job_open(&j, BODY);
+    const sp_nozzle own = {.name = "own",
+                           .type = &j.types[0],
+                           .position = sp_v(0.5, 0.5, 0.9),
+                           .axis = sp_v(0, 0, -1),
+                           .pressure = j.pressure};
+    sp_layout *kept = sp_layout_create(&own, 1, &error);
+    j.options.kept = kept;
+    double bound;
+    assert_true(apart(&j, &bound) >= TOUCH);
+    sp_layout_destroy(kept);
+    room_close(&j.room);
+}
+
+/* Compass search goes towards the other as far as their bodies let it. */
+static void no_move_brings_bodies_together(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        prepared ready;
+        sp_partial partial;
+        sp_sights sights;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        j.options.refine.position = 0.2;
+        prepare(&ready, j.room.evaluator, &j.options);
+        assert_true(sp_partial_create(&ready.search, &partial, &error));
+        assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 1}, &error));
+        assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 3, .variant = 1}, &error));
+        assert_true(sp_sights_create(&ready.search, 4, true, &sights, &error));
+        assert_true(sp_compass(&sights, 0.25, 0.1, INFINITY, &ready.deadline, &partial, &error));
+        double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
+        assert_true(given ? distance >= TOUCH : distance < TOUCH);
+        assert_int_equal(sp_bodies_all_clear(&ready.search, &partial), true);
+        sp_sights_free(&sights);
+        sp_partial_free(&partial);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
+/* Two in one place are not taken into the front, nor chosen from the matrix. */
+static void what_overlaps_is_no_layout(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        prepared ready;
+        sp_partial partial;
+        sp_pool pool = {0};
+        sp_coverage_matrix matrix;
+        sp_selection selection;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        prepare(&ready, j.room.evaluator, &j.options);
+        sp_front front = {.fine = j.room.evaluator,
+                          .deadline = &ready.deadline,
+                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
+                          .target = ready.search.all};
+        assert_true(sp_partial_create(&ready.search, &partial, &error));
+        assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
+        for (uint32_t k = 0; k < 2; k++) {
+            const sp_pose pose = {.site = 2, .variant = k};
+            assert_int_equal(sp_bodies_clear_at(&ready.search, &partial, &pose), !given || k == 0);
+            assert_true(sp_partial_add_pose(&ready.search, &partial, pose, &error));
+            assert_true(sp_pool_add(&pool, pose, &error));
+        }
+        assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
+        assert_int_equal(front.best.count, given ? 0 : 2);
+        assert_true(sp_coverage_matrix_create(&ready.search, &pool, NULL, 0, &matrix, &error));
+        assert_true(sp_selection_create(&matrix, &selection, &error));
+        assert_true(sp_selection_gain(&selection, 1, INFINITY) > 0);
+        sp_selection_add(&selection, 0);
+        assert_int_equal(sp_selection_gain(&selection, 1, INFINITY) > 0, !given);
+        sp_selection_free(&selection);
+        sp_coverage_matrix_free(&matrix);
+        sp_front_free(&front);
+        sp_partial_free(&partial);
+        sp_pool_free(&pool);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
+/* Nor does annealing, which takes nozzles out and puts others in. */
+static void annealing_puts_in_what_keeps_clear(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        prepared ready;
+        sp_partial partial;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        prepare(&ready, j.room.evaluator, &j.options);
+        assert_true(sp_partial_create(&ready.search, &partial, &error));
+        for (uint32_t k = 0; k < 2; k++)
+            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 4 * k, .variant = k}, &error));
+        assert_true(sp_simulated_annealing(&ready.search, INFINITY, 1e6, 1, &ready.deadline, &partial, &error));
+        assert_int_equal(partial.count, 2);
+        double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
+        assert_true(given ? distance >= TOUCH : distance < TOUCH);
+        sp_partial_free(&partial);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
+/* Greedy goes on with what keeps clear. */
+static void greedy_takes_what_keeps_clear(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        prepared ready;
+        sp_partial first;
+        sp_pool pool = {0};
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        prepare(&ready, j.room.evaluator, &j.options);
+        sp_front front = {.fine = j.room.evaluator,
+                          .deadline = &ready.deadline,
+                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
+                          .target = ready.search.all};
+        assert_true(sp_find_first(&ready.search, 1, &ready.deadline, &front, &pool, &first, &error));
+        assert_int_equal(first.count, 2);
+        double distance = sp_distance(first.items[0].nozzle.position, first.items[1].nozzle.position);
+        assert_true(given ? distance >= TOUCH : distance < TOUCH);
+        sp_partial_free(&first);
+        sp_front_free(&front);
+        sp_pool_free(&pool);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
+/* Nor does exchange bring them together. */
+static void no_exchange_brings_bodies_together(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        prepared ready;
+        sp_partial partial;
+        sp_pool pool = {0};
+        sp_pool_gains gains;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        prepare(&ready, j.room.evaluator, &j.options);
+        for (uint32_t k = 0; k < 2; k++)
+            assert_true(sp_pool_add(&pool, (sp_pose){.site = 2, .variant = k}, &error));
+        assert_true(sp_partial_create(&ready.search, &partial, &error));
+        assert_true(sp_partial_add_pose(&ready.search, &partial, pool.items[0], &error));
+        assert_true(sp_pool_gains_create(&ready.search, &pool, &gains, &error));
+        assert_true(sp_improve(&ready.search, &gains, INFINITY, &ready.deadline, &partial, &error));
+        assert_int_equal(partial.count, given ? 1 : 2);
+        sp_pool_gains_free(&gains);
+        sp_partial_free(&partial);
+        sp_pool_free(&pool);
+        prepared_free(&ready);
+        room_close(&j.room);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bodies_keep_clear),
+        cmocka_unit_test(the_proof_is_of_what_can_be_built),
+        cmocka_unit_test(kept_bodies_keep_clear),
+        cmocka_unit_test(no_move_brings_bodies_together),
+        cmocka_unit_test(what_overlaps_is_no_layout),
+        cmocka_unit_test(greedy_takes_what_keeps_clear),
+        cmocka_unit_test(annealing_puts_in_what_keeps_clear),
+        cmocka_unit_test(no_exchange_brings_bodies_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
