@@ -122,7 +122,7 @@ static void scan_site(remedying *r, const sp_partial *partial, uint32_t site)
         sp_scorer_look(scorer, &r->masked, partial, site, s);
         for (uint32_t k = 0; k < candidates->variant_count; k++)
             if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k) &&
-                sp_bodies_clear_at(&r->masked, partial, &(sp_pose){.site = site, .variant = k}))
+                sp_body_clear(&r->masked, partial, sp_pose_body(&r->masked, &(sp_pose){.site = site, .variant = k})))
                 scan_variant(r, partial, scorer, k, &r->best[site]);
     }
 }

@@ -57,7 +57,7 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     bool promising = elsewhere || parameters.kind[k] != SP_UNKNOWN_PLACE;
-    if (elsewhere && !sp_bodies_clear(needle->search, needle->partial, trial.nozzle.type, trial.nozzle.position))
+    if (elsewhere && !sp_body_clear(needle->search, needle->partial, sp_nozzle_body(&trial.nozzle)))
         return true;
     if (elsewhere && !is_promising(needle, &trial, &promising))
         return false;

@@ -150,11 +150,23 @@ static bool step(const sp_continuing *continuing, size_t width, sp_partial *part
 /* Takes the copy over where it covers more with no more water. */
 static void keep_better(const sp_search *search, sp_partial *partial, sp_partial *copy, double water)
 {
-    bool better = sp_covers_more(search, copy, partial) && copy->flow <= water * (1 + SP_ROUNDING) &&
-                  sp_bodies_all_clear(search, copy);
+    bool better = sp_covers_more(search, copy, partial) && copy->flow <= water * (1 + SP_ROUNDING);
     sp_partial_free(better ? partial : copy);
     if (better)
         *partial = *copy;
+}
+
+/* Back to the best where a step has brought bodies into each other, from which no other would part them. */
+static bool part_bodies(const sp_search *search, const sp_partial *best, sp_partial *moving, sp_error *error)
+{
+    sp_partial copy;
+    if (sp_partial_clear(search, moving))
+        return true;
+    if (!sp_partial_copy(search, best, &copy, error))
+        return false;
+    sp_partial_free(moving);
+    *moving = copy;
+    return true;
 }
 
 bool sp_continuation(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline,
@@ -169,7 +181,8 @@ bool sp_continuation(sp_sights *sights, size_t start, size_t end, double water, 
     bool done = true;
     for (size_t w = start; done && w < end && sp_deadline_goes_on(deadline, "refine", (double)w / SP_WIDTHS); w++) {
         sp_partial copy;
-        done = step(&continuing, w, &moving) && sp_partial_copy(sights->search, &moving, &copy, error);
+        done = step(&continuing, w, &moving) && part_bodies(sights->search, partial, &moving, error) &&
+               sp_partial_copy(sights->search, &moving, &copy, error);
         if (done)
             keep_better(sights->search, partial, &copy, water);
     }

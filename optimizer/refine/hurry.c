@@ -24,7 +24,7 @@ static bool aims_at_target(const sp_front *front)
 }
 
 /* Trials of other layouts for ever less water, from a little more than the best layout takes where that does not reach
- * the target; where as much as possible is to be covered, for what it takes alone. */
+ * the target; where as much as possible is to be covered, for what it takes and for more. */
 static bool ask_rungs(sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;

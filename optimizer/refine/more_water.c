@@ -77,7 +77,7 @@ bool sp_ask_more(sp_refining *refining, sp_trials *trials)
     if (sp_front_saves(refining->front))
         return true;
     double outlay = refining->front->best.outlay, most = most_outlay(refining);
-    for (int i = 1; i <= RUNGS && most > outlay * (1 + SP_GAIN_LEAST); i++)
+    for (int i = 1; i <= RUNGS && outlay > 0 && most > outlay * (1 + SP_GAIN_LEAST); i++)
         if (!sp_ask_other(refining, trials, outlay * pow(most / outlay, (double)i / RUNGS)))
             return false;
     return true;

@@ -2,6 +2,7 @@
 
 #include "ranking/ranking.h"
 #include "refine/pose_parameters.h"
+#include "scoring/bodies.h"
 #include "scoring/field.h"
 
 #define ROUNDS 3        /* of looking at the settings beside those of the best layout */
@@ -113,13 +114,24 @@ static bool turn(const sp_search *search, sp_placed *placed, sp_setting setting,
     return (steps == 0 || fabs(value - nearest) > 0.5 * size) && set(search, placed, setting, value);
 }
 
-/* The depth that may be set nearest to where the lance ends: at least one may, that of the candidate. */
-static void turn_depth(const sp_search *search, sp_placed *placed)
+/* The depth by so many steps from the nearest, if the nozzle keeps clear of the others there. */
+static bool turn_depth_to(const sp_search *search, sp_partial *partial, size_t i, double steps)
 {
-    sp_dial dial = dial_of(search, placed, SETTING_DEPTH);
+    sp_placed *placed = &partial->items[i], before = *placed;
+    if (turn(search, placed, SETTING_DEPTH, steps) &&
+        sp_body_clear_of_others(search, partial, i, sp_nozzle_body(&placed->nozzle)))
+        return true;
+    *placed = before;
+    return false;
+}
+
+/* The depth that may be set nearest to where the lance ends: at least one may, that of the candidate. */
+static void turn_depth(const sp_search *search, sp_partial *partial, size_t i)
+{
+    sp_dial dial = dial_of(search, &partial->items[i], SETTING_DEPTH);
     double size = sp_step_size(dial.step), most = size > 0 ? (dial.high - dial.low) / size + 1 : 0;
     for (double away = 0; away <= most; away++)
-        if (turn(search, placed, SETTING_DEPTH, away) || turn(search, placed, SETTING_DEPTH, -away))
+        if (turn_depth_to(search, partial, i, away) || turn_depth_to(search, partial, i, -away))
             return;
 }
 
@@ -135,12 +147,13 @@ static void turn_flow(const sp_search *search, sp_placed *placed, int way)
     turn(search, placed, SETTING_FLOW, passed ? way : 0);
 }
 
-/* The nozzle at settings. What no pattern kernel sums stands at those of a candidate. */
-static void turn_all(const sp_search *search, sp_placed *placed, int way)
+/* Nozzle i at settings. What no pattern kernel sums stands at those of a candidate. */
+static void turn_all(const sp_search *search, sp_partial *partial, size_t i, int way)
 {
+    sp_placed *placed = &partial->items[i];
     if (!sp_type_is_uniform(placed->nozzle.type))
         return;
-    turn_depth(search, placed);
+    turn_depth(search, partial, i);
     turn(search, placed, SETTING_TILT, 0);
     turn(search, placed, SETTING_ANGLE, 0);
     turn_flow(search, placed, way);
@@ -167,7 +180,7 @@ static bool set_partial(const sp_search *search, const sp_partial *from, int way
         return false;
     bool done = true;
     for (size_t i = 0; done && i < partial.count; i++) {
-        turn_all(search, &partial.items[i], way);
+        turn_all(search, &partial, i, way);
         done = look(search, &partial.items[i], error);
     }
     done = done && measure(search, front, &partial, error);

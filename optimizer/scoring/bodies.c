@@ -1,42 +1,30 @@
 #include "scoring/bodies.h"
 
-#include "nozzle/body.h"
-
-static bool clear_of(const sp_nozzle *other, const sp_nozzle_type *type, sp_vec3 position)
-{
-    return !sp_bodies_overlap(other->type, type, sp_distance(other->position, position));
-}
-
-bool sp_clear_of_kept(const sp_search *search, const sp_nozzle_type *type, sp_vec3 position)
+bool sp_body_clear_of_kept(const sp_search *search, sp_body body)
 {
     bool clear = true;
     for (size_t i = 0; search->bodies && clear && i < search->kept_count; i++)
-        clear = clear_of(&search->kept[i], type, position);
+        clear = !sp_body_overlaps(sp_nozzle_body(&search->kept[i]), body);
     return clear;
 }
 
-bool sp_bodies_clear(const sp_search *search, const sp_partial *partial, const sp_nozzle_type *type, sp_vec3 position)
+bool sp_body_clear_of_others(const sp_search *search, const sp_partial *partial, size_t i, sp_body body)
 {
-    bool clear = sp_clear_of_kept(search, type, position);
-    for (size_t i = 0; search->bodies && clear && i < partial->count; i++)
-        clear = clear_of(&partial->items[i].nozzle, type, position);
+    bool clear = sp_body_clear_of_kept(search, body);
+    for (size_t k = 0; search->bodies && clear && k < partial->count; k++)
+        clear = k == i || !sp_body_overlaps(sp_nozzle_body(&partial->items[k].nozzle), body);
     return clear;
 }
 
-bool sp_bodies_clear_at(const sp_search *search, const sp_partial *partial, const sp_pose *pose)
+bool sp_body_clear(const sp_search *search, const sp_partial *partial, sp_body body)
 {
-    return sp_bodies_clear(search, partial, search->candidates->variants[pose->variant].type,
-                           search->sites->items[pose->site].position);
+    return sp_body_clear_of_others(search, partial, partial->count, body);
 }
 
-bool sp_bodies_all_clear(const sp_search *search, const sp_partial *partial)
+bool sp_partial_clear(const sp_search *search, const sp_partial *partial)
 {
     bool clear = true;
-    for (size_t i = 0; search->bodies && clear && i < partial->count; i++) {
-        const sp_nozzle *own = &partial->items[i].nozzle;
-        clear = sp_clear_of_kept(search, own->type, own->position);
-        for (size_t k = 0; clear && k < i; k++)
-            clear = clear_of(&partial->items[k].nozzle, own->type, own->position);
-    }
+    for (size_t i = 0; search->bodies && clear && i < partial->count; i++)
+        clear = sp_body_clear_of_others(search, partial, i, sp_nozzle_body(&partial->items[i].nozzle));
     return clear;
 }

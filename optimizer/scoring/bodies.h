@@ -1,17 +1,23 @@
-/* Nozzles whose bodies would overlap do not make a layout. Where types do not say how wide their bodies are, nothing is
- * known of that: any mount but a port then holds several in one place. */
+/* Nozzles whose bodies would overlap do not make a layout. Where no type says how wide its body is, any mount but a
+ * port may hold several in one place. */
 #ifndef OPTIMIZER_BODIES_H
 #define OPTIMIZER_BODIES_H
 
+#include "nozzle/body.h"
 #include "scoring/partial.h"
 
-/* Whether one of this type at `position` keeps clear of the kept nozzles. */
-bool sp_clear_of_kept(const sp_search *search, const sp_nozzle_type *type, sp_vec3 position);
-/* Whether one more of this type at `position` keeps clear of the partial layout's and the kept ones. */
-bool sp_bodies_clear(const sp_search *search, const sp_partial *partial, const sp_nozzle_type *type, sp_vec3 position);
-/* The same of a candidate. */
-bool sp_bodies_clear_at(const sp_search *search, const sp_partial *partial, const sp_pose *pose);
+/* Of a candidate. */
+static inline sp_body sp_pose_body(const sp_search *search, const sp_pose *pose)
+{
+    return (sp_body){search->candidates->variants[pose->variant].type, search->sites->items[pose->site].position};
+}
+/* Whether a body keeps clear of the kept nozzles. */
+bool sp_body_clear_of_kept(const sp_search *search, sp_body body);
+/* Whether one more keeps clear of these and of the partial layout's. */
+bool sp_body_clear(const sp_search *search, const sp_partial *partial, sp_body body);
+/* Whether item i would keep clear of all others with this body. */
+bool sp_body_clear_of_others(const sp_search *search, const sp_partial *partial, size_t i, sp_body body);
 /* Whether all of the partial layout's keep clear of each other and of the kept ones. */
-bool sp_bodies_all_clear(const sp_search *search, const sp_partial *partial);
+bool sp_partial_clear(const sp_search *search, const sp_partial *partial);
 
 #endif

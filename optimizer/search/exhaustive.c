@@ -1,6 +1,5 @@
 #include "search/exhaustive.h"
 
-#include "nozzle/body.h"
 #include "scoring/bodies.h"
 #include "scoring/mount_capacity.h"
 #include "spray/criterion.h"
@@ -35,19 +34,12 @@ static double flow_of(const walker *w, size_t pose)
     return w->search->candidates->variants[w->poses->poses[pose].variant].flow;
 }
 
-/* Bodies do not overlap, which are the kept nozzles', too. */
 static bool is_clear(const walker *w, size_t pose)
 {
-    const sp_search *search = w->search;
-    const sp_pose *own = &w->poses->poses[pose];
-    const sp_nozzle_type *type = search->candidates->variants[own->variant].type;
-    sp_vec3 position = search->sites->items[own->site].position;
-    bool clear = sp_clear_of_kept(search, type, position);
-    for (size_t i = 0; clear && i < w->now.count; i++) {
-        const sp_pose *other = &w->poses->poses[w->now.pose[i]];
-        clear = !sp_bodies_overlap(type, search->candidates->variants[other->variant].type,
-                                   sp_distance(position, search->sites->items[other->site].position));
-    }
+    sp_body own = sp_pose_body(w->search, &w->poses->poses[pose]);
+    bool clear = sp_body_clear_of_kept(w->search, own);
+    for (size_t i = 0; clear && i < w->now.count; i++)
+        clear = !sp_body_overlaps(own, sp_pose_body(w->search, &w->poses->poses[w->now.pose[i]]));
     return clear;
 }
 

@@ -258,7 +258,7 @@ bool sp_front_aim(sp_front *front, const sp_search *search, double target, sp_er
 static bool enter(sp_front *front, const sp_search *search, const sp_partial *partial, const sp_front_point *point,
                   sp_error *error)
 {
-    if (!sp_bodies_all_clear(search, partial))
+    if (!sp_partial_clear(search, partial))
         return true;
     if (!note(&front->by_water, by_water, tie_of(front), search, partial, point, error) ||
         !note(&front->by_number, by_number, tie_of(front), search, partial, point, error))

@@ -143,7 +143,8 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_scorer *s
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
             if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget) &&
-                sp_bodies_clear(rounds->search, partial, variant->type, rounds->search->sites->items[site].position))
+                sp_body_clear(rounds->search, partial,
+                              (sp_body){variant->type, rounds->search->sites->items[site].position}))
                 scan_variant(rounds, partial, scorer, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
@@ -170,7 +171,8 @@ static double round_floor(sp_rounds *rounds, const sp_partial *partial)
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
         if (!sp_partial_affords(search, partial, mount, best->pose.variant, rounds->budget) ||
-            !sp_partial_has_place(search, partial, mount) || !sp_bodies_clear_at(search, partial, &best->pose))
+            !sp_partial_has_place(search, partial, mount) ||
+            !sp_body_clear(search, partial, sp_pose_body(search, &best->pose)))
             continue;
         sp_scorer *scorer = &rounds->scorers[omp_get_thread_num()];
         double gain =

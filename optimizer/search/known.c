@@ -154,7 +154,7 @@ static bool admit(const sp_search *search, const sp_found *found, const found_la
         item->site.mount = mount_like(search, &found->mounts[item->site.mount]);
         if (item->site.mount == SP_NONE || !is_offered(search, item->site.mount, offered) ||
             !sp_partial_has_place(search, bare, item->site.mount) ||
-            !sp_bodies_clear(search, bare, item->nozzle.type, item->nozzle.position))
+            !sp_body_clear(search, bare, sp_nozzle_body(&item->nozzle)))
             return false;
         item->pose = find_pose(search, item->site.mount, &item->origin);
         if (!sp_type_is_uniform(item->nozzle.type) && (changed || item->pose.site == SP_NONE))

@@ -235,7 +235,7 @@ static bool allowed(const sp_search *search, const sp_partial *partial, sp_pose 
     uint32_t mount = search->sites->items[pose.site].mount;
     return sp_ranks_mine(search->options->run.ranks, pose.site) &&
            sp_partial_affords(search, partial, mount, pose.variant, budget) &&
-           sp_partial_has_place(search, partial, mount) && sp_bodies_clear_at(search, partial, &pose);
+           sp_partial_has_place(search, partial, mount) && sp_body_clear(search, partial, sp_pose_body(search, &pose));
 }
 
 /* The scores of the others' poses that are above 0. */

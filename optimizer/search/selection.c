@@ -1,6 +1,5 @@
 #include "search/selection.h"
 
-#include "nozzle/body.h"
 #include "scoring/bodies.h"
 #include "scoring/mount_capacity.h"
 
@@ -126,30 +125,20 @@ void sp_selection_remove(sp_selection *selection, size_t i)
     set_rows(selection, rows, selection->count - 1);
 }
 
-static const sp_nozzle_type *type_of(const sp_coverage_matrix *matrix, size_t row)
+static sp_body body_of(const sp_coverage_matrix *matrix, size_t row)
 {
     size_t poses = matrix->pool->count;
-    return row < poses ? matrix->search->candidates->variants[matrix->pool->items[row].variant].type
-                       : matrix->others[row - poses]->nozzle.type;
+    return row < poses ? sp_pose_body(matrix->search, &matrix->pool->items[row])
+                       : sp_nozzle_body(&matrix->others[row - poses]->nozzle);
 }
 
-static sp_vec3 position_of(const sp_coverage_matrix *matrix, size_t row)
-{
-    size_t poses = matrix->pool->count;
-    return row < poses ? matrix->search->sites->items[matrix->pool->items[row].site].position
-                       : matrix->others[row - poses]->nozzle.position;
-}
-
-/* Bodies do not overlap, which are the kept nozzles', too. */
 static bool is_clear(const sp_selection *selection, size_t row)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
-    const sp_nozzle_type *type = type_of(matrix, row);
-    sp_vec3 position = position_of(matrix, row);
-    bool clear = sp_clear_of_kept(matrix->search, type, position);
+    sp_body own = body_of(matrix, row);
+    bool clear = sp_body_clear_of_kept(matrix->search, own);
     for (size_t i = 0; matrix->search->bodies && clear && i < selection->count; i++)
-        clear = !sp_bodies_overlap(type, type_of(matrix, selection->row[i]),
-                                   sp_distance(position, position_of(matrix, selection->row[i])));
+        clear = !sp_body_overlaps(own, body_of(matrix, selection->row[i]));
     return clear;
 }
 

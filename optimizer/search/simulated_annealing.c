@@ -78,7 +78,8 @@ static bool add(sp_annealer *annealer, uint32_t near, double power, bool *added)
         if (sp_affords(search, annealer->partial->flow, annealer->partial->outlay, mount,
                        search->candidates->variants[variant].flow, annealer->budget) &&
             sp_partial_has_place(search, annealer->partial, mount) &&
-            sp_bodies_clear_at(search, annealer->partial, &(sp_pose){.site = site, .variant = variant}))
+            sp_body_clear(search, annealer->partial,
+                          sp_pose_body(search, &(sp_pose){.site = site, .variant = variant})))
             look(annealer, site, variant, power, &best);
     }
     sp_scorers_forget(annealer->scorer, 1);

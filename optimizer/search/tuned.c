@@ -99,7 +99,7 @@ bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tun
 {
     const sp_candidates *from = search->candidates;
     size_t *base = malloc(SETTINGS * from->variant_count * sizeof *base);
-    *tuned = (sp_tuned){.candidates = *from, .search = *search};
+    *tuned = (sp_tuned){.candidates = *from, .search = *search, .base = base};
     tuned->candidates.variants = NULL;
     tuned->candidates.axes = NULL;
     tuned->candidates.pose_start = NULL;
@@ -108,7 +108,6 @@ bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tun
         (base && list_variants(search, &tuned->candidates, base) && list_axes(from, base, &tuned->candidates)) ||
         sp_fail_memory(error);
     done = done && list_poses(pool, base, tuned, error);
-    free(base);
     if (!done)
         sp_tuned_free(tuned);
     return done;
@@ -119,7 +118,16 @@ void sp_tuned_free(sp_tuned *tuned)
     free(tuned->candidates.variants);
     free(tuned->candidates.axes);
     sp_pool_free(&tuned->pool);
+    free(tuned->base);
     *tuned = (sp_tuned){0};
+}
+
+/* The candidate that a pose at other settings comes of; `origin` is at that pose. */
+static void go_back(const sp_tuned *tuned, sp_placed *placed)
+{
+    placed->pose.variant = (uint32_t)tuned->base[placed->pose.variant];
+    const sp_variant *original = &tuned->candidates.variants[placed->pose.variant];
+    placed->origin.angle = original->angle == original->type->angle ? 0 : original->angle;
 }
 
 void sp_tuned_settle(const sp_tuned *tuned, sp_partial *partial)
@@ -129,5 +137,7 @@ void sp_tuned_settle(const sp_tuned *tuned, sp_partial *partial)
         sp_placed *placed = &partial->items[i];
         if (fabs(sp_nozzle_flow(&placed->nozzle, liquid) - placed->flow) > 1e-9 * placed->flow)
             placed->nozzle.flow = placed->flow;
+        if (placed->pose.site != SP_NONE && tuned->base[placed->pose.variant] != placed->pose.variant)
+            go_back(tuned, placed);
     }
 }

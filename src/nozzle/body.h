@@ -7,10 +7,20 @@
 
 #define SP_BODY_ROUND_OFF 1e-9 /* of the bodies, by which those that touch may seem to overlap */
 
-/* Whether they do with their tips `apart` (m). Of types whose bodies are not given nothing is known. */
-static inline bool sp_bodies_overlap(const sp_nozzle_type *a, const sp_nozzle_type *b, double apart)
+typedef struct {
+    const sp_nozzle_type *type;
+    sp_vec3 position;
+} sp_body;
+
+/* A type that does not say how wide its body is has that of a point. */
+static inline bool sp_body_overlaps(sp_body a, sp_body b)
 {
-    return apart < (1 - SP_BODY_ROUND_OFF) * (a->body + b->body) / 2;
+    return sp_distance(a.position, b.position) < (1 - SP_BODY_ROUND_OFF) * (a.type->body + b.type->body) / 2;
+}
+
+static inline sp_body sp_nozzle_body(const sp_nozzle *nozzle)
+{
+    return (sp_body){nozzle->type, nozzle->position};
 }
 
 #endif

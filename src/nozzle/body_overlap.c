@@ -15,7 +15,7 @@ size_t sp_layout_overlap(const sp_layout *layout, size_t i, char text[SP_OVERLAP
         if (apart <= ONE_PLACE)
             snprintf(text, SP_OVERLAP_TEXT, "%s and %s stand in one place: their bodies overlap", other->name,
                      own->name);
-        else if (sp_bodies_overlap(own->type, other->type, apart))
+        else if (sp_body_overlaps(sp_nozzle_body(own), sp_nozzle_body(other)))
             snprintf(text, SP_OVERLAP_TEXT,
                      "%s and %s stand %.3g mm apart: their bodies of %.4g mm and %.4g mm overlap", other->name,
                      own->name, 1e3 * apart, 1e3 * other->type->body, 1e3 * own->type->body);

@@ -66,7 +66,7 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool thrown_ba
     sp_text_add(text, ": at most ");
     add_percent(text, found->gap, true);
     sp_text_add(text, " of what is possible is left.%s</p>\n",
-                found->every_layout ? " Every layout of the candidates was looked at." : "");
+                found->every_layout ? " Every layout of the candidates was looked at that their bodies allow." : "");
     add_every_aim(proposal, text, only);
 }
 

@@ -230,6 +230,28 @@ static size_t variants_at(const sp_candidates *candidates, const sp_nozzle_type 
     return count;
 }
 
+/* Of what stands at other settings the certificate must not take another candidate for it, nor look beyond them. */
+static void settled_is_no_candidate(const prepared *ready, const sp_tuned *tuned)
+{
+    sp_error error = {0};
+    size_t count = ready->candidates.variant_count;
+    for (size_t i = 0; i < tuned->pool.count; i++) {
+        sp_pose pose = tuned->pool.items[i];
+        const sp_variant *variant = &tuned->candidates.variants[pose.variant];
+        sp_partial partial;
+        assert_true(sp_partial_create(&tuned->search, &partial, &error));
+        assert_true(sp_partial_add_pose(&tuned->search, &partial, pose, &error));
+        sp_tuned_settle(tuned, &partial);
+        const sp_placed *placed = &partial.items[0];
+        assert_true(placed->pose.variant < count);
+        assert_int_equal(sp_placed_is_candidate(placed), pose.variant < count);
+        assert_true(sp_nozzle_angle(&placed->nozzle) == variant->angle);
+        assert_true(fabs(placed->flow - variant->flow) <= 1e-12 * variant->flow);
+        assert_true(sp_nozzle_angle(&placed->origin) == ready->candidates.variants[placed->pose.variant].angle);
+        sp_partial_free(&partial);
+    }
+}
+
 static void settings_between_the_candidates(void **state)
 {
     (void)state;
@@ -255,6 +277,7 @@ static void settings_between_the_candidates(void **state)
     }
     assert_int_equal(variants_at(&tuned.candidates, &j.types[1], 90, &litres), 1);
     assert_int_equal(tuned.pool.count, 31);
+    settled_is_no_candidate(&ready, &tuned);
     sp_tuned_free(&tuned);
     sp_pool_free(&pool);
     prepared_free(&ready);

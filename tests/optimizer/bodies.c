@@ -3,8 +3,11 @@
 #include "prepared.h"
 
 #include "refine/compass.h"
+#include "refine/continuation.h"
+#include "refine/settable.h"
 #include "scoring/bodies.h"
 #include "search/exchange.h"
+#include "search/exhaustive.h"
 #include "search/find.h"
 #include "search/front.h"
 #include "search/selection.h"
@@ -123,48 +126,139 @@ static void the_proof_is_of_what_can_be_built(void **state)
 static void kept_bodies_keep_clear(void **state)
 {
     (void)state;
-    job j;
-    sp_error error = {0};
-    job_open(&j, BODY);
-    const sp_nozzle own = {.name = "own",
-                           .type = &j.types[0],
-                           .position = sp_v(0.5, 0.5, 0.9),
-                           .axis = sp_v(0, 0, -1),
-                           .pressure = j.pressure};
-    sp_layout *kept = sp_layout_create(&own, 1, &error);
-    j.options.kept = kept;
-    double bound;
-    assert_true(apart(&j, &bound) >= TOUCH);
-    sp_layout_destroy(kept);
-    room_close(&j.room);
-}
-
-/* Compass search goes towards the other as far as their bodies let it. */
-static void no_move_brings_bodies_together(void **state)
-{
-    (void)state;
     for (int given = 0; given <= 1; given++) {
         job j;
-        prepared ready;
-        sp_partial partial;
-        sp_sights sights;
+        double bound;
         sp_error error = {0};
         job_open(&j, given ? BODY : 0);
-        j.options.refine.position = 0.2;
-        prepare(&ready, j.room.evaluator, &j.options);
-        assert_true(sp_partial_create(&ready.search, &partial, &error));
-        assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 1}, &error));
-        assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 3, .variant = 1}, &error));
-        assert_true(sp_sights_create(&ready.search, 4, true, &sights, &error));
-        assert_true(sp_compass(&sights, 0.25, 0.1, INFINITY, &ready.deadline, &partial, &error));
-        double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
+        const sp_nozzle own = {.name = "own",
+                               .type = &j.types[0],
+                               .position = sp_v(0.5, 0.5, 0.9),
+                               .axis = sp_v(0, 0, -1),
+                               .pressure = j.pressure,
+                               .keep = true};
+        sp_layout *kept = sp_layout_create(&own, 1, &error);
+        j.options.kept = kept;
+        double distance = apart(&j, &bound);
         assert_true(given ? distance >= TOUCH : distance < TOUCH);
-        assert_int_equal(sp_bodies_all_clear(&ready.search, &partial), true);
-        sp_sights_free(&sights);
-        sp_partial_free(&partial);
+        sp_layout_destroy(kept);
+        room_close(&j.room);
+    }
+}
+
+/* Where one type has none, two of it may be in one place: looking at each pose once is not all. */
+static void without_all_bodies_a_pose_may_be_taken_twice(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 2; given++) {
+        job j;
+        prepared ready;
+        sp_exhaustive every;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        j.types[1].body = given == 2 ? BODY : 0;
+        prepare(&ready, j.room.evaluator, &j.options);
+        assert_true(sp_exhaustive_create(&ready.search, j.room.evaluator, (sp_exhaustive_limits){INFINITY, INFINITY},
+                                         &ready.deadline, "certificate", &every, &error));
+        assert_true(every.count > 0);
+        assert_int_equal(every.whole, given == 2);
+        sp_exhaustive_free(&every);
         prepared_free(&ready);
         room_close(&j.room);
     }
+}
+
+typedef bool (*refine_way)(sp_sights *sights, sp_deadline *deadline, sp_partial *partial, sp_error *error);
+
+static bool by_compass(sp_sights *sights, sp_deadline *deadline, sp_partial *partial, sp_error *error)
+{
+    return sp_compass(sights, 0.25, 0.1, INFINITY, deadline, partial, error);
+}
+
+static bool by_continuation(sp_sights *sights, sp_deadline *deadline, sp_partial *partial, sp_error *error)
+{
+    return sp_continuation(sights, 0, SP_WIDTHS, INFINITY, deadline, partial, error);
+}
+
+/* The two go towards each other as far as their bodies let them. */
+static void no_move_brings_bodies_together(void **state)
+{
+    (void)state;
+    static const refine_way ways[] = {by_compass, by_continuation};
+    for (size_t way = 0; way < sizeof ways / sizeof *ways; way++)
+        for (int given = 0; given <= 1; given++) {
+            job j;
+            prepared ready;
+            sp_partial partial;
+            sp_sights sights;
+            sp_error error = {0};
+            job_open(&j, given ? BODY : 0);
+            j.options.refine.position = 0.2;
+            prepare(&ready, j.room.evaluator, &j.options);
+            assert_true(sp_partial_create(&ready.search, &partial, &error));
+            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 1}, &error));
+            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 3, .variant = 1}, &error));
+            assert_true(sp_sights_create(&ready.search, 4, true, &sights, &error));
+            assert_true(ways[way](&sights, &ready.deadline, &partial, &error));
+            double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
+            assert_true(given ? distance >= TOUCH : distance < TOUCH);
+            assert_true(sp_partial_clear(&ready.search, &partial));
+            sp_sights_free(&sights);
+            sp_partial_free(&partial);
+            prepared_free(&ready);
+            room_close(&j.room);
+        }
+}
+
+/* A nozzle of a port, so far from it along its axis, between settings. */
+static void add_at(const prepared *ready, sp_partial *partial, uint32_t mount, double depth)
+{
+    sp_error error = {0};
+    uint32_t site = 0;
+    while (ready->sites.items[site].mount != mount)
+        site++;
+    assert_true(sp_partial_add_pose(&ready->search, partial, (sp_pose){.site = site}, &error));
+    sp_placed *placed = &partial->items[partial->count - 1];
+    const sp_mount *port = &ready->search.options->mounts[mount];
+    placed->site.position = placed->nozzle.position = sp_along(port->position, depth, port->axis);
+}
+
+/* Lances that end 0.149 m apart, and would 0.1 m at the nearest settings, are set to others. */
+static void settings_keep_bodies_clear(void **state)
+{
+    (void)state;
+    job j;
+    prepared ready;
+    sp_partial partial;
+    sp_error error = {0};
+    job_open(&j, 0.14);
+    sp_mount ports[] = {{.kind = SP_MOUNT_PORT, .name = "top", .position = sp_v(0.5, 0.5, 1), .axis = sp_v(0, 0, -1)},
+                        {.kind = SP_MOUNT_PORT, .name = "side", .position = sp_v(0, 0.5, 0.6), .axis = sp_v(1, 0, 0)}};
+    for (size_t i = 0; i < 2; i++) {
+        ports[i].depth_from = 0.1;
+        ports[i].depth_to = 0.8;
+        ports[i].depth_spacing = 0.1;
+        ports[i].depth_step = (sp_step){0.1, 1};
+    }
+    j.options.mounts = ports;
+    j.options.mount_count = 2;
+    prepare(&ready, j.room.evaluator, &j.options);
+    sp_front front = {.fine = j.room.evaluator,
+                      .deadline = &ready.deadline,
+                      .objective = SP_OBJECTIVE_MAX_COVERAGE,
+                      .target = ready.search.all};
+    assert_true(sp_partial_create(&ready.search, &partial, &error));
+    assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
+    add_at(&ready, &partial, 0, 0.26);
+    add_at(&ready, &partial, 1, 0.46);
+    assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
+    assert_int_equal(front.best.count, 2);
+    assert_true(sp_set_front(&ready.search, &ready.deadline, &front, &error));
+    assert_int_equal(front.best.count, 2);
+    sp_partial_free(&partial);
+    sp_front_free(&front);
+    prepared_free(&ready);
+    room_close(&j.room);
 }
 
 /* Two in one place are not taken into the front, nor chosen from the matrix. */
@@ -189,7 +283,8 @@ static void what_overlaps_is_no_layout(void **state)
         assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
         for (uint32_t k = 0; k < 2; k++) {
             const sp_pose pose = {.site = 2, .variant = k};
-            assert_int_equal(sp_bodies_clear_at(&ready.search, &partial, &pose), !given || k == 0);
+            assert_int_equal(sp_body_clear(&ready.search, &partial, sp_pose_body(&ready.search, &pose)),
+                             !given || k == 0);
             assert_true(sp_partial_add_pose(&ready.search, &partial, pose, &error));
             assert_true(sp_pool_add(&pool, pose, &error));
         }
@@ -296,7 +391,9 @@ int main(void)
         cmocka_unit_test(bodies_keep_clear),
         cmocka_unit_test(the_proof_is_of_what_can_be_built),
         cmocka_unit_test(kept_bodies_keep_clear),
+        cmocka_unit_test(without_all_bodies_a_pose_may_be_taken_twice),
         cmocka_unit_test(no_move_brings_bodies_together),
+        cmocka_unit_test(settings_keep_bodies_clear),
         cmocka_unit_test(what_overlaps_is_no_layout),
         cmocka_unit_test(greedy_takes_what_keeps_clear),
         cmocka_unit_test(annealing_puts_in_what_keeps_clear),
