@@ -128,7 +128,7 @@ typedef struct {
  * `water` is outlay here, and layouts beyond max_water are among those that do no better. */
 typedef struct {
     bool computed;      /* false: nothing below means anything */
-    bool every_layout;  /* that bodies allow was looked at, so that area_bound and water_bound are what the best of them do */
+    bool every_layout;  /* that bodies allow was looked at: area_bound and water_bound are what the best of them do */
     size_t texels;      /* patches that areas are counted on */
     size_t candidates;  /* poses priced */
     size_t own;         /* poses of layouts found, besides */
