@@ -3,10 +3,9 @@
 #include "candidates/ranges.h"
 #include "scoring/mount_capacity.h"
 
-#define RUNGS 6      /* amounts of water above the best layout's, evenly by their logarithm */
-#define ANNEALINGS 4 /* of the best layout */
-#define ROUNDS 3     /* of these */
-#define GAIN 2e-3    /* more that is covered, for another round */
+#define RUNGS 6   /* amounts of water above the best layout's, evenly by their logarithm */
+#define ROUNDS 3  /* of annealing the best layout */
+#define GAIN 2e-3 /* more that is covered, for another round */
 
 /* The outlay of the layout with all of its nozzles turned up as far as they can be, within what is allowed. */
 static double turned_up(const sp_search *search, const sp_partial *partial)
@@ -96,14 +95,11 @@ bool sp_try_turned_up(sp_refining *refining, sp_trials *trials)
     return true;
 }
 
-/* From several seeds: which of many layouts that are all but equal annealing ends at is its luck. */
 static bool anneal_best(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = true;
-    for (int i = 0; done && i < ANNEALINGS; i++)
-        done = sp_try_also(refining, &trials, &refining->front->best, sp_best_budget(refining), SP_TRIAL_ANNEALING);
-    done = done && sp_trials_carry_out(refining, &trials);
+    bool done = sp_try_annealed(refining, &trials, &refining->front->best, sp_best_budget(refining)) &&
+                sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);
     return done;
 }

@@ -6,7 +6,6 @@
 #define NEAR 0.006        /* of the target: what may be missing for a layout to be near it */
 #define LEEWAY 0.03       /* more outlay that such a layout may take */
 #define ANNEALED_MOST 4   /* such layouts that are annealed, those of most outlay */
-#define ANNEALINGS 4      /* of each */
 #define ROUNDS 3          /* of all of that */
 #define SAVING 2e-3       /* less outlay, for another round */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
@@ -109,7 +108,6 @@ double sp_near_budget(const sp_front *front, size_t i)
     return fmin(front->by_water.entries[i].point.outlay * (1 + LEEWAY), front->best.outlay);
 }
 
-/* Each from several seeds: which of many layouts that are all but equal annealing ends at is its luck. */
 static bool anneal_near(sp_refining *refining)
 {
     const sp_front *front = refining->front;
@@ -120,9 +118,7 @@ static bool anneal_near(sp_refining *refining)
         if (!sp_is_near_target(front, i))
             continue;
         near++;
-        for (int k = 0; done && k < ANNEALINGS; k++)
-            done = sp_try_also(refining, &trials, &front->by_water.entries[i].partial, sp_near_budget(front, i),
-                               SP_TRIAL_ANNEALING);
+        done = sp_try_annealed(refining, &trials, &front->by_water.entries[i].partial, sp_near_budget(front, i));
     }
     done = done && sp_trials_carry_out(refining, &trials);
     sp_trials_free(&trials);

@@ -5,6 +5,8 @@
 
 #include <stdlib.h>
 
+#define ANNEALINGS 4 /* of a layout */
+
 static void trial_free(sp_trial *trial)
 {
     sp_partial_free(&trial->partial);
@@ -40,6 +42,14 @@ bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *par
         return false;
     trials->count++;
     return true;
+}
+
+bool sp_try_annealed(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget)
+{
+    bool done = true;
+    for (int i = 0; done && i < ANNEALINGS; i++)
+        done = sp_try_also(refining, trials, partial, budget, SP_TRIAL_ANNEALING);
+    return done;
 }
 
 /* Whether the final patches may see the layout on the front: none of no more water covers clearly more on the search's.

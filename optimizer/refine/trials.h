@@ -24,6 +24,9 @@ typedef struct {
 /* Another trial of a copy of the layout, within a budget (m³/s of outlay). */
 bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget,
                  sp_trial_kind kind);
+/* Trials of it by annealing, from several seeds: which of many layouts that are all but equal it ends at is its luck.
+ */
+bool sp_try_annealed(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget);
 /* A trial of another layout for so much water, to be better than what the front has for no more. */
 bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
 /* Finds the trials' other layouts: of the pool at angles and flows that refinement may set, and of nozzles that the

@@ -144,7 +144,7 @@ static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_scorer *s
             const sp_variant *variant = &candidates->variants[k];
             if (variant->launch == s && sp_partial_affords(rounds->search, partial, mount, k, rounds->budget) &&
                 sp_body_clear(rounds->search, partial,
-                              (sp_body){variant->type, rounds->search->sites->items[site].position}))
+                              sp_pose_body(rounds->search, &(sp_pose){.site = site, .variant = (uint32_t)k})))
                 scan_variant(rounds, partial, scorer, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }

@@ -58,6 +58,51 @@ static void job_open(job *j, double body)
     j->options.coverage = 1;
 }
 
+/* What a search of the job's candidates holds, all of it empty at first. */
+typedef struct {
+    prepared ready;
+    sp_partial partial;
+    sp_pool pool;
+    sp_front front;
+} probe;
+
+static void probe_open(probe *p, const job *j)
+{
+    sp_error error = {0};
+    *p = (probe){0};
+    prepare(&p->ready, j->room.evaluator, &j->options);
+    p->front = (sp_front){.fine = j->room.evaluator,
+                          .deadline = &p->ready.deadline,
+                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
+                          .target = p->ready.search.all};
+    assert_true(sp_partial_create(&p->ready.search, &p->partial, &error));
+}
+
+/* And the job. */
+static void probe_close(probe *p, job *j)
+{
+    sp_front_free(&p->front);
+    sp_pool_free(&p->pool);
+    sp_partial_free(&p->partial);
+    prepared_free(&p->ready);
+    room_close(&j->room);
+}
+
+static void probe_add(probe *p, uint32_t site, uint32_t variant)
+{
+    sp_error error = {0};
+    assert_true(
+        sp_partial_add_pose(&p->ready.search, &p->partial, (sp_pose){.site = site, .variant = variant}, &error));
+}
+
+/* Its two nozzles are a body apart, or nearer where they have none. */
+static void check_pair(const sp_partial *partial, bool given)
+{
+    assert_int_equal(partial->count, 2);
+    double distance = sp_distance(partial->items[0].nozzle.position, partial->items[1].nozzle.position);
+    assert_true(given ? distance >= TOUCH : distance < TOUCH);
+}
+
 /* m between the two nozzles that are nearest. */
 static double nearest(const sp_layout *layout)
 {
@@ -152,19 +197,18 @@ static void without_all_bodies_a_pose_may_be_taken_twice(void **state)
     (void)state;
     for (int given = 0; given <= 2; given++) {
         job j;
-        prepared ready;
+        probe p;
         sp_exhaustive every;
         sp_error error = {0};
         job_open(&j, given ? BODY : 0);
         j.types[1].body = given == 2 ? BODY : 0;
-        prepare(&ready, j.room.evaluator, &j.options);
-        assert_true(sp_exhaustive_create(&ready.search, j.room.evaluator, (sp_exhaustive_limits){INFINITY, INFINITY},
-                                         &ready.deadline, "certificate", &every, &error));
+        probe_open(&p, &j);
+        assert_true(sp_exhaustive_create(&p.ready.search, j.room.evaluator, (sp_exhaustive_limits){INFINITY, INFINITY},
+                                         &p.ready.deadline, "certificate", &every, &error));
         assert_true(every.count > 0);
         assert_int_equal(every.whole, given == 2);
         sp_exhaustive_free(&every);
-        prepared_free(&ready);
-        room_close(&j.room);
+        probe_close(&p, &j);
     }
 }
 
@@ -188,38 +232,32 @@ static void no_move_brings_bodies_together(void **state)
     for (size_t way = 0; way < sizeof ways / sizeof *ways; way++)
         for (int given = 0; given <= 1; given++) {
             job j;
-            prepared ready;
-            sp_partial partial;
+            probe p;
             sp_sights sights;
             sp_error error = {0};
             job_open(&j, given ? BODY : 0);
             j.options.refine.position = 0.2;
-            prepare(&ready, j.room.evaluator, &j.options);
-            assert_true(sp_partial_create(&ready.search, &partial, &error));
-            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 1}, &error));
-            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 3, .variant = 1}, &error));
-            assert_true(sp_sights_create(&ready.search, 4, true, &sights, &error));
-            assert_true(ways[way](&sights, &ready.deadline, &partial, &error));
-            double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
-            assert_true(given ? distance >= TOUCH : distance < TOUCH);
-            assert_true(sp_partial_clear(&ready.search, &partial));
+            probe_open(&p, &j);
+            probe_add(&p, 1, 0);
+            probe_add(&p, 3, 1);
+            assert_true(sp_sights_create(&p.ready.search, 4, true, &sights, &error));
+            assert_true(ways[way](&sights, &p.ready.deadline, &p.partial, &error));
+            check_pair(&p.partial, given);
+            assert_true(sp_partial_clear(&p.ready.search, &p.partial));
             sp_sights_free(&sights);
-            sp_partial_free(&partial);
-            prepared_free(&ready);
-            room_close(&j.room);
+            probe_close(&p, &j);
         }
 }
 
-/* A nozzle of a port, so far from it along its axis, between settings. */
-static void add_at(const prepared *ready, sp_partial *partial, uint32_t mount, double depth)
+/* The first nozzle of a port, so far from it along its axis, between settings. */
+static void probe_add_at(probe *p, uint32_t mount, double depth)
 {
-    sp_error error = {0};
+    const sp_mount *port = &p->ready.search.options->mounts[mount];
     uint32_t site = 0;
-    while (ready->sites.items[site].mount != mount)
+    while (p->ready.sites.items[site].mount != mount)
         site++;
-    assert_true(sp_partial_add_pose(&ready->search, partial, (sp_pose){.site = site}, &error));
-    sp_placed *placed = &partial->items[partial->count - 1];
-    const sp_mount *port = &ready->search.options->mounts[mount];
+    probe_add(p, site, 0);
+    sp_placed *placed = &p->partial.items[p->partial.count - 1];
     placed->site.position = placed->nozzle.position = sp_along(port->position, depth, port->axis);
 }
 
@@ -228,8 +266,7 @@ static void settings_keep_bodies_clear(void **state)
 {
     (void)state;
     job j;
-    prepared ready;
-    sp_partial partial;
+    probe p;
     sp_error error = {0};
     job_open(&j, 0.14);
     sp_mount ports[] = {{.kind = SP_MOUNT_PORT, .name = "top", .position = sp_v(0.5, 0.5, 1), .axis = sp_v(0, 0, -1)},
@@ -242,90 +279,68 @@ static void settings_keep_bodies_clear(void **state)
     }
     j.options.mounts = ports;
     j.options.mount_count = 2;
-    prepare(&ready, j.room.evaluator, &j.options);
-    sp_front front = {.fine = j.room.evaluator,
-                      .deadline = &ready.deadline,
-                      .objective = SP_OBJECTIVE_MAX_COVERAGE,
-                      .target = ready.search.all};
-    assert_true(sp_partial_create(&ready.search, &partial, &error));
-    assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
-    add_at(&ready, &partial, 0, 0.26);
-    add_at(&ready, &partial, 1, 0.46);
-    assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
-    assert_int_equal(front.best.count, 2);
-    assert_true(sp_set_front(&ready.search, &ready.deadline, &front, &error));
-    assert_int_equal(front.best.count, 2);
-    sp_partial_free(&partial);
-    sp_front_free(&front);
-    prepared_free(&ready);
-    room_close(&j.room);
+    probe_open(&p, &j);
+    assert_true(sp_front_measure(&p.front, &p.ready.search, &p.partial, NULL, &error));
+    probe_add_at(&p, 0, 0.26);
+    probe_add_at(&p, 1, 0.46);
+    assert_true(sp_front_measure(&p.front, &p.ready.search, &p.partial, NULL, &error));
+    assert_int_equal(p.front.best.count, 2);
+    assert_true(sp_set_front(&p.ready.search, &p.ready.deadline, &p.front, &error));
+    assert_int_equal(p.front.best.count, 2);
+    probe_close(&p, &j);
 }
 
-/* Two in one place are not taken into the front, nor chosen from the matrix. */
-static void what_overlaps_is_no_layout(void **state)
+/* Two in one place are not taken into the front. */
+static void what_overlaps_is_not_on_the_front(void **state)
 {
     (void)state;
     for (int given = 0; given <= 1; given++) {
         job j;
-        prepared ready;
-        sp_partial partial;
-        sp_pool pool = {0};
+        probe p;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        probe_open(&p, &j);
+        assert_true(sp_front_measure(&p.front, &p.ready.search, &p.partial, NULL, &error));
+        for (uint32_t k = 0; k < 2; k++) {
+            sp_body body = sp_pose_body(&p.ready.search, &(sp_pose){.site = 2, .variant = k});
+            assert_int_equal(sp_body_clear(&p.ready.search, &p.partial, body), !given || k == 0);
+            probe_add(&p, 2, k);
+        }
+        assert_true(sp_front_measure(&p.front, &p.ready.search, &p.partial, NULL, &error));
+        assert_int_equal(p.front.best.count, given ? 0 : 2);
+        probe_close(&p, &j);
+    }
+}
+
+/* Both variants at one site. */
+static void pool_pair(probe *p)
+{
+    sp_error error = {0};
+    for (uint32_t k = 0; k < 2; k++)
+        assert_true(sp_pool_add(&p->pool, (sp_pose){.site = 2, .variant = k}, &error));
+}
+
+/* Nor chosen from the matrix. */
+static void what_overlaps_is_not_selected(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        probe p;
         sp_coverage_matrix matrix;
         sp_selection selection;
         sp_error error = {0};
         job_open(&j, given ? BODY : 0);
-        prepare(&ready, j.room.evaluator, &j.options);
-        sp_front front = {.fine = j.room.evaluator,
-                          .deadline = &ready.deadline,
-                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
-                          .target = ready.search.all};
-        assert_true(sp_partial_create(&ready.search, &partial, &error));
-        assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
-        for (uint32_t k = 0; k < 2; k++) {
-            const sp_pose pose = {.site = 2, .variant = k};
-            assert_int_equal(sp_body_clear(&ready.search, &partial, sp_pose_body(&ready.search, &pose)),
-                             !given || k == 0);
-            assert_true(sp_partial_add_pose(&ready.search, &partial, pose, &error));
-            assert_true(sp_pool_add(&pool, pose, &error));
-        }
-        assert_true(sp_front_measure(&front, &ready.search, &partial, NULL, &error));
-        assert_int_equal(front.best.count, given ? 0 : 2);
-        assert_true(sp_coverage_matrix_create(&ready.search, &pool, NULL, 0, &matrix, &error));
+        probe_open(&p, &j);
+        pool_pair(&p);
+        assert_true(sp_coverage_matrix_create(&p.ready.search, &p.pool, NULL, 0, &matrix, &error));
         assert_true(sp_selection_create(&matrix, &selection, &error));
         assert_true(sp_selection_gain(&selection, 1, INFINITY) > 0);
         sp_selection_add(&selection, 0);
         assert_int_equal(sp_selection_gain(&selection, 1, INFINITY) > 0, !given);
         sp_selection_free(&selection);
         sp_coverage_matrix_free(&matrix);
-        sp_front_free(&front);
-        sp_partial_free(&partial);
-        sp_pool_free(&pool);
-        prepared_free(&ready);
-        room_close(&j.room);
-    }
-}
-
-/* Nor does annealing, which takes nozzles out and puts others in. */
-static void annealing_puts_in_what_keeps_clear(void **state)
-{
-    (void)state;
-    for (int given = 0; given <= 1; given++) {
-        job j;
-        prepared ready;
-        sp_partial partial;
-        sp_error error = {0};
-        job_open(&j, given ? BODY : 0);
-        prepare(&ready, j.room.evaluator, &j.options);
-        assert_true(sp_partial_create(&ready.search, &partial, &error));
-        for (uint32_t k = 0; k < 2; k++)
-            assert_true(sp_partial_add_pose(&ready.search, &partial, (sp_pose){.site = 4 * k, .variant = k}, &error));
-        assert_true(sp_simulated_annealing(&ready.search, INFINITY, 1e6, 1, &ready.deadline, &partial, &error));
-        assert_int_equal(partial.count, 2);
-        double distance = sp_distance(partial.items[0].nozzle.position, partial.items[1].nozzle.position);
-        assert_true(given ? distance >= TOUCH : distance < TOUCH);
-        sp_partial_free(&partial);
-        prepared_free(&ready);
-        room_close(&j.room);
+        probe_close(&p, &j);
     }
 }
 
@@ -335,53 +350,54 @@ static void greedy_takes_what_keeps_clear(void **state)
     (void)state;
     for (int given = 0; given <= 1; given++) {
         job j;
-        prepared ready;
+        probe p;
         sp_partial first;
-        sp_pool pool = {0};
         sp_error error = {0};
         job_open(&j, given ? BODY : 0);
-        prepare(&ready, j.room.evaluator, &j.options);
-        sp_front front = {.fine = j.room.evaluator,
-                          .deadline = &ready.deadline,
-                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
-                          .target = ready.search.all};
-        assert_true(sp_find_first(&ready.search, 1, &ready.deadline, &front, &pool, &first, &error));
-        assert_int_equal(first.count, 2);
-        double distance = sp_distance(first.items[0].nozzle.position, first.items[1].nozzle.position);
-        assert_true(given ? distance >= TOUCH : distance < TOUCH);
+        probe_open(&p, &j);
+        assert_true(sp_find_first(&p.ready.search, 1, &p.ready.deadline, &p.front, &p.pool, &first, &error));
+        check_pair(&first, given);
         sp_partial_free(&first);
-        sp_front_free(&front);
-        sp_pool_free(&pool);
-        prepared_free(&ready);
-        room_close(&j.room);
+        probe_close(&p, &j);
     }
 }
 
-/* Nor does exchange bring them together. */
+/* Nor does annealing bring them together, which takes nozzles out and puts others in. */
+static void annealing_puts_in_what_keeps_clear(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; given++) {
+        job j;
+        probe p;
+        sp_error error = {0};
+        job_open(&j, given ? BODY : 0);
+        probe_open(&p, &j);
+        probe_add(&p, 0, 0);
+        probe_add(&p, 4, 1);
+        assert_true(sp_simulated_annealing(&p.ready.search, INFINITY, 1e6, 1, &p.ready.deadline, &p.partial, &error));
+        check_pair(&p.partial, given);
+        probe_close(&p, &j);
+    }
+}
+
+/* Nor does exchange. */
 static void no_exchange_brings_bodies_together(void **state)
 {
     (void)state;
     for (int given = 0; given <= 1; given++) {
         job j;
-        prepared ready;
-        sp_partial partial;
-        sp_pool pool = {0};
+        probe p;
         sp_pool_gains gains;
         sp_error error = {0};
         job_open(&j, given ? BODY : 0);
-        prepare(&ready, j.room.evaluator, &j.options);
-        for (uint32_t k = 0; k < 2; k++)
-            assert_true(sp_pool_add(&pool, (sp_pose){.site = 2, .variant = k}, &error));
-        assert_true(sp_partial_create(&ready.search, &partial, &error));
-        assert_true(sp_partial_add_pose(&ready.search, &partial, pool.items[0], &error));
-        assert_true(sp_pool_gains_create(&ready.search, &pool, &gains, &error));
-        assert_true(sp_improve(&ready.search, &gains, INFINITY, &ready.deadline, &partial, &error));
-        assert_int_equal(partial.count, given ? 1 : 2);
+        probe_open(&p, &j);
+        pool_pair(&p);
+        probe_add(&p, 2, 0);
+        assert_true(sp_pool_gains_create(&p.ready.search, &p.pool, &gains, &error));
+        assert_true(sp_improve(&p.ready.search, &gains, INFINITY, &p.ready.deadline, &p.partial, &error));
+        assert_int_equal(p.partial.count, given ? 1 : 2);
         sp_pool_gains_free(&gains);
-        sp_partial_free(&partial);
-        sp_pool_free(&pool);
-        prepared_free(&ready);
-        room_close(&j.room);
+        probe_close(&p, &j);
     }
 }
 
@@ -394,7 +410,8 @@ int main(void)
         cmocka_unit_test(without_all_bodies_a_pose_may_be_taken_twice),
         cmocka_unit_test(no_move_brings_bodies_together),
         cmocka_unit_test(settings_keep_bodies_clear),
-        cmocka_unit_test(what_overlaps_is_no_layout),
+        cmocka_unit_test(what_overlaps_is_not_on_the_front),
+        cmocka_unit_test(what_overlaps_is_not_selected),
         cmocka_unit_test(greedy_takes_what_keeps_clear),
         cmocka_unit_test(annealing_puts_in_what_keeps_clear),
         cmocka_unit_test(no_exchange_brings_bodies_together),
