@@ -91,7 +91,8 @@ static void print_errors(const sp_result *result, const sp_figures *figures, int
     for (size_t i = 0, listed = 0; i < result->design_count; i++)
         if (isfinite(figures[i].error_estimate))
             printf("%s%-*s coverage %.2f %%, measured error \xc2\xb1%.2f points\n", listed++ ? "" : "\n", width,
-                   result->designs[i].name, 100 * figures[i].coverage, ceil(1e4 * figures[i].error_estimate) / 100);
+                   result->designs[i].name, 100 * figures[i].coverage,
+                   sp_percent_at_most(figures[i].error_estimate, 1));
 }
 
 /* Where jets are so few that their noise tells more than a shorter texel does. */

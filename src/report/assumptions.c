@@ -31,7 +31,7 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
             sp_text_add(text, "; ");
         sp_page_name(page, text, i);
         sp_text_add(text, " \xc2\xb1%.2f&nbsp;points of coverage (%.2f&nbsp;%% of the area misjudged, either way)",
-                    ceil(1e4 * figures->error_estimate) / 100, 100 * figures->misjudged);
+                    sp_percent_at_most(figures->error_estimate, 1), 100 * figures->misjudged);
         if (isfinite(figures->error_bound))
             sp_text_add(text, ", lines in place of parabolas are proved to change it by no more than %.1f&nbsp;points",
                         ceil(1e3 * figures->error_bound) / 10);

@@ -136,10 +136,10 @@ static void add_doubt(const sp_forward_check *check, sp_text *text)
 /* The proposal's coverage is not confirmed. */
 static void add_error(const sp_figures *proposed, double accuracy, sp_text *text)
 {
-    sp_text_add(text, "<p class=\"warning\" id=\"error\"><strong>The accuracy asked for is not kept.</strong> The "
-                      "proposal&#39;s coverage may be off by ");
-    sp_markup_significant(text, 100 * proposed->error_estimate, 2);
-    sp_text_add(text, "&nbsp;points, more than the ");
+    sp_text_add(text,
+                "<p class=\"warning\" id=\"error\"><strong>The accuracy asked for is not kept.</strong> The "
+                "proposal&#39;s coverage may be off by %.2f&nbsp;points, more than the ",
+                sp_percent_at_most(proposed->error_estimate, 1));
     sp_markup_significant(text, 100 * accuracy, 2);
     sp_text_add(text, "&nbsp;%% that were asked for. Texels shorter than ");
     sp_markup_significant(text, 1e3 * proposed->texel, 3);
