@@ -5,11 +5,12 @@
 /* On the search's patches, 20,000 at most, two million jets come within half a point of the inverse evaluation on
  * vessels of a thousand faces, in a second or two. Fewer come within a point, and are enough where they agree much
  * better than they have to. Where neither agrees and four times as many still change what is hit, as where patches just
- * have the dose that they need, more are flown. Their number is part of the answer. */
+ * have the dose that they need, or either nearly agrees, more are flown. Their number is part of the answer. */
 static const uint64_t jets_flown[] = {500000, 2000000, 8000000};
 #define PATCHES_MOST 20000.0
 #define SHARE_LEAST 0.25 /* of the jets */
 #define MUCH_BETTER 0.5  /* of the tolerance */
+#define FAR 2            /* of these, beyond which what changes little is no chance */
 #define TOLERANCE_LEAST 0.005
 #define SECONDS 1
 
@@ -40,13 +41,13 @@ static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, c
                                 .agrees = fabs(difference) <= tolerance};
 }
 
-/* Whether jets have said enough: they agree, or more would change little. `before`: what a quarter of them said; NAN:
- * these are the first. */
+/* Whether jets have said enough: they agree, or are far from it and more would change little. `before`: what a quarter
+ * of them said; NAN: these are the first. */
 static bool have_said(const sp_forward_check *check, double before)
 {
     double settled = MUCH_BETTER * check->tolerance;
     return fabs(check->difference) <= settled || (check->agrees && !isnan(before)) ||
-           fabs(check->difference - before) <= settled;
+           (fabs(check->difference) > FAR * check->tolerance && fabs(check->difference - before) <= settled);
 }
 
 /* True where there is no time for four times the jets that took so many seconds: what these few say against the

@@ -63,7 +63,7 @@ typedef enum {
 
 /* How far refinement may move each nozzle; 0 or false: not at all. */
 typedef struct {
-    double position; /* m; -1: half the mount's spacing */
+    double position; /* m; -1: half the mount's spacing, on a surface all of it */
     double axis;     /* rad */
     bool roll;
     double angle; /* rad; INFINITY: the type's whole range */

@@ -51,5 +51,6 @@ double sp_flow_within(const sp_place_options *options, const sp_setup *setup, co
 double sp_move_limit(const sp_place_options *options, const sp_mount *mount)
 {
     double spacing = mount->kind == SP_MOUNT_PORT ? mount->depth_spacing : mount->spacing;
-    return options->refine.position < 0 ? 0.5 * spacing : options->refine.position;
+    double between = mount->kind == SP_MOUNT_SURFACE ? spacing : 0.5 * spacing;
+    return options->refine.position < 0 ? between : options->refine.position;
 }

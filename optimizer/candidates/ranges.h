@@ -18,7 +18,8 @@ void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const
 double sp_flow_within(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type,
                       double pressure, double most);
 /* m that refinement may move a nozzle from where it was mounted, along each direction that the mount has; along a
- * surface in all. */
+ * surface in all. Where nothing else is asked it gets to every place between the mounting points: those of a surface
+ * are laid so that hardly any place of it is farther than a spacing from the nearest. */
 double sp_move_limit(const sp_place_options *options, const sp_mount *mount);
 
 #endif

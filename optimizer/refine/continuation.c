@@ -42,6 +42,14 @@ double sp_most_flow(const sp_search *search, const sp_placed *placed)
     return high;
 }
 
+double sp_turned_up(const sp_search *search, const sp_partial *partial)
+{
+    double outlay = partial->outlay;
+    for (size_t i = 0; i < partial->count; i++)
+        outlay += sp_most_flow(search, &partial->items[i]) - partial->items[i].flow;
+    return fmin(outlay, search->outlay_most);
+}
+
 void sp_turn_down(const sp_search *search, sp_partial *partial, double water)
 {
     double total = search->kept_flow, spare = 0;

@@ -17,6 +17,8 @@ bool sp_continuation(sp_sights *sights, size_t start, size_t end, double water, 
 /* The flow that a nozzle may be turned down to, and up to; its own where that is fixed. */
 double sp_least_flow(const sp_search *search, const sp_placed *placed);
 double sp_most_flow(const sp_search *search, const sp_placed *placed);
+/* The outlay (m³/s) of the layout with all of its nozzles turned up as far as they can be, within what is allowed. */
+double sp_turned_up(const sp_search *search, const sp_partial *partial);
 /* Turns adjustable nozzles down by the same share of what they have above their least, to a total of `water` (m³/s) if
  * that can be. The fields stay as they are. */
 void sp_turn_down(const sp_search *search, sp_partial *partial, double water);

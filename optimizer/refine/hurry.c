@@ -2,6 +2,7 @@
 
 #include "ranking/ranking.h"
 #include "refine/more_water.h"
+#include "refine/other_layouts.h"
 #include "refine/saving.h"
 
 #include <stdlib.h>

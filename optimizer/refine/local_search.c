@@ -19,8 +19,6 @@
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last local search starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
-#define STARTS 2        /* of continuation */
-#define TURNS 4         /* of annealed and new layouts, as many as STARTS that continuation refines first */
 #define ANNEALING 1e8   /* patches that simulated annealing goes through */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
@@ -137,21 +135,14 @@ static bool fit(sp_sights *sights, double budget, sp_partial *partial, bool *fit
     return true;
 }
 
-/* Which start, of those that widen, continuation takes for a trial: by turns, or none. Compass finds as much where
- * there is little to forget. */
-static size_t turn_of(const sp_trial *trial)
-{
-    return trial->seed % TURNS < STARTS ? trial->seed % TURNS : STARTS;
-}
-
 /* From ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
 static bool continue_wider(const sp_local_search *local, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
                            sp_error *error)
 {
-    static const size_t starts[STARTS] = {3, 0};
+    static const size_t starts[SP_STARTS] = {3, 0};
     double water = sp_partial_water(local->search, partial, trial->budget);
-    for (size_t i = 0; i < STARTS; i++)
-        if ((trial->kind == SP_TRIAL_CONTINUATION || i == turn_of(trial)) &&
+    for (size_t i = 0; i < SP_STARTS; i++)
+        if ((trial->kind == SP_TRIAL_CONTINUATION || i == trial->turn) &&
             !sp_continuation(sights, starts[i], SP_WIDTHS, water, local->deadline, partial, error))
             return false;
     return true;
@@ -197,10 +188,12 @@ static bool anneal(const sp_local_search *local, sp_trial *trial, sp_error *erro
                                    local->deadline, &trial->start, error));
 }
 
-static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
+static bool is_same(const sp_placed *a, const sp_placed *b)
 {
-    return a->type == b->type && sp_distance(a->position, b->position) == 0 && sp_distance(a->axis, b->axis) == 0 &&
-           a->roll == b->roll && a->angle == b->angle && a->flow == b->flow && a->pressure == b->pressure;
+    const sp_nozzle *m = &a->nozzle, *n = &b->nozzle;
+    return m->type == n->type && sp_distance(m->position, n->position) == 0 && sp_distance(m->axis, n->axis) == 0 &&
+           m->roll == n->roll && m->angle == n->angle && a->flow == b->flow && m->pressure == n->pressure &&
+           a->site.mount == b->site.mount;
 }
 
 /* Nozzle by nozzle, as the order decides which is turned first. */
@@ -208,28 +201,52 @@ static bool are_same(const sp_partial *a, const sp_partial *b)
 {
     bool same = a->count == b->count;
     for (size_t i = 0; same && i < a->count; i++)
-        same = is_same(&a->items[i].nozzle, &b->items[i].nozzle);
+        same = is_same(&a->items[i], &b->items[i]);
     return same;
 }
 
-/* Often annealing finds nothing and ends where it began. What is refined alike from there comes to the same: once is
- * enough. */
-static void find_repeats(sp_trial *trials, size_t count)
+/* The layout that a trial is refined from. */
+static const sp_partial *start_of(const sp_trial *trial)
+{
+    bool other = trial->kind == SP_TRIAL_OTHER || trial->kind == SP_TRIAL_RUNNER_UP;
+    return other ? &trial->other : trial->kind == SP_TRIAL_ANNEALING ? &trial->start : &trial->partial;
+}
+
+/* Annealed starts are known to their rank alone, which compares them with one another. */
+static bool comes_to_the_same(const sp_search *search, const sp_trial *a, const sp_trial *b)
+{
+    const sp_partial *from = start_of(a);
+    bool alike = a->turn == b->turn && (a->kind == SP_TRIAL_ANNEALING) == (b->kind == SP_TRIAL_ANNEALING) &&
+                 (a->kind == SP_TRIAL_CONTINUATION) == (b->kind == SP_TRIAL_CONTINUATION);
+    if (!alike || !from->count || !are_same(from, start_of(b)))
+        return false;
+    /* more water than its nozzles can be turned up to makes no difference to what it is refined to */
+    return a->budget == b->budget || fmin(a->budget, b->budget) >= sp_turned_up(search, from) * (1 - SP_ROUNDING);
+}
+
+/* Whether all that makes a trial better by what it is refined to would make the other, too: against what it is held. */
+static bool is_no_easier(const sp_trial *a, const sp_trial *b)
+{
+    return a->budget >= b->budget && a->partial.covered >= b->partial.covered;
+}
+
+/* Often annealing finds nothing and ends where it began, and another layout is one for several amounts of water. What
+ * is refined alike from there comes to the same: once is enough, where least is asked of it. */
+static void find_repeats(const sp_search *search, sp_trial *trials, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < i && !trials[i].repeats; k++)
-            trials[i].repeats = trials[i].start.count && trials[i].budget == trials[k].budget &&
-                                turn_of(&trials[i]) == turn_of(&trials[k]) &&
-                                are_same(&trials[i].start, &trials[k].start);
+        for (size_t k = 0; k < i && !trials[i].repeats; k++) {
+            if (trials[k].repeats || !comes_to_the_same(search, &trials[i], &trials[k]))
+                continue;
+            trials[i].repeats = is_no_easier(&trials[i], &trials[k]);
+            trials[k].repeats = !trials[i].repeats && is_no_easier(&trials[k], &trials[i]);
+        }
 }
 
 /* What the trial starts from. */
 static bool begin(const sp_local_search *local, sp_trial *trial, sp_partial *start, sp_error *error)
 {
-    const sp_partial *from = trial->kind == SP_TRIAL_OTHER       ? &trial->other
-                             : trial->kind == SP_TRIAL_ANNEALING ? &trial->start
-                                                                 : &trial->partial;
-    if (!sp_partial_copy(local->search, from, start, error))
+    if (!sp_partial_copy(local->search, start_of(trial), start, error))
         return false;
     sp_tuned_settle(&local->tuned, start);
     return true;
@@ -287,7 +304,7 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
 bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
     bool done = sp_trials_for_each(local, trials, count, false, anneal, error);
-    find_repeats(trials, count);
+    find_repeats(local->search, trials, count);
     done = done && sp_trials_for_each(local, trials, count, false, search_locally, error) &&
            sp_trials_share_merits(local, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);

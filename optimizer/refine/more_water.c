@@ -7,19 +7,10 @@
 #define ROUNDS 3  /* of annealing the best layout */
 #define GAIN 2e-3 /* more that is covered, for another round */
 
-/* The outlay of the layout with all of its nozzles turned up as far as they can be, within what is allowed. */
-static double turned_up(const sp_search *search, const sp_partial *partial)
-{
-    double outlay = partial->outlay;
-    for (size_t i = 0; i < partial->count; i++)
-        outlay += sp_most_flow(search, &partial->items[i]) - partial->items[i].flow;
-    return fmin(outlay, search->outlay_most);
-}
-
 double sp_best_budget(const sp_refining *refining)
 {
     const sp_front *front = refining->front;
-    return sp_front_saves(front) ? front->best.outlay : turned_up(refining->search, &front->best);
+    return sp_front_saves(front) ? front->best.outlay : sp_turned_up(refining->search, &front->best);
 }
 
 /* Nozzles that the mounts and max_nozzles leave room for; SIZE_MAX: any number. */
@@ -37,13 +28,11 @@ static size_t most_nozzles(const sp_search *search)
     return allowed < most ? allowed : most;
 }
 
-/* The outlay of the dearest nozzle that may be mounted, turned up as far as it can be. *settable: the candidates do not
- * have all of them so. */
-static double dearest_nozzle(const sp_search *search, bool *settable)
+/* The outlay of the dearest nozzle that may be mounted, turned up as far as it can be. */
+static double dearest_nozzle(const sp_search *search)
 {
     const sp_candidates *candidates = search->candidates;
     double dearest = 0, low, high;
-    *settable = false;
     for (size_t k = 0; k < candidates->variant_count; k++) {
         const sp_variant *variant = &candidates->variants[k];
         sp_flow_range(search->options, sp_evaluator_setup(search->coarse), variant->type, variant->pressure, &low,
@@ -52,7 +41,6 @@ static double dearest_nozzle(const sp_search *search, bool *settable)
             if (!sp_mount_left(search, (uint32_t)m) || !sp_candidates_axes(candidates, (uint32_t)m, k)->count)
                 continue;
             dearest = fmax(dearest, sp_outlay_at(search, (uint32_t)m, high));
-            *settable |= high > variant->flow * (1 + SP_GAIN_LEAST);
         }
     }
     return dearest;
@@ -63,12 +51,11 @@ static double most_outlay(const sp_refining *refining)
 {
     const sp_search *search = refining->search;
     size_t number = most_nozzles(search);
-    bool settable;
-    double dearest = dearest_nozzle(search, &settable), most = search->outlay_most;
-    double turned = turned_up(search, &refining->front->best);
+    double dearest = dearest_nozzle(search), most = search->outlay_most;
+    double turned = sp_turned_up(search, &refining->front->best);
     if (number < SIZE_MAX)
         most = fmin(most, search->kept_flow + (double)number * dearest);
-    return settable && isfinite(most) ? fmax(turned, most) : turned;
+    return isfinite(most) ? fmax(turned, most) : turned;
 }
 
 bool sp_ask_more(sp_refining *refining, sp_trials *trials)
@@ -87,7 +74,7 @@ bool sp_try_turned_up(sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     for (size_t i = 0; !sp_front_saves(front) && i < front->by_number.count; i++) {
         const sp_front_entry *entry = &front->by_number.entries[i];
-        double most = turned_up(refining->search, &entry->partial);
+        double most = sp_turned_up(refining->search, &entry->partial);
         if (most > entry->partial.outlay * (1 + SP_GAIN_LEAST) &&
             !sp_try_also(refining, trials, &entry->partial, most, SP_TRIAL_BY_TURNS))
             return false;

@@ -9,7 +9,7 @@
  * reach, as much as its nozzles can be turned up to. */
 double sp_best_budget(const sp_refining *refining);
 /* Trials of other layouts for more water than the best takes, up to the most that is allowed, or where nothing limits
- * it, to what the best can be turned up to. None where no type's flow can be set above its rated one. */
+ * it, to what the best can be turned up to. */
 bool sp_ask_more(sp_refining *refining, sp_trials *trials);
 /* Trials of the best layouts of every number of nozzles, turned up as far as they can be: a few strong nozzles may
  * cover more than the many that the candidates' flows ask for. */

@@ -3,6 +3,7 @@
 #include "scoring/prepare.h"
 #include "refine/hurry.h"
 #include "refine/more_water.h"
+#include "refine/other_layouts.h"
 #include "refine/saving.h"
 
 #include <stdlib.h>
@@ -76,7 +77,7 @@ static bool is_better(const sp_trial *trial)
 static void choose_others(sp_trials *trials)
 {
     for (size_t i = 0; i < trials->count; i++)
-        if (!is_better(&trials->items[i]))
+        if (trials->items[i].kind == SP_TRIAL_OTHER && !is_better(&trials->items[i]))
             trials->items[i].kind = SP_TRIAL_BY_TURNS;
 }
 
@@ -97,8 +98,8 @@ static bool drop_others(sp_refining *refining, sp_trials *trials)
 static bool search_front_locally(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done =
-        ask_others(refining, &trials, true) && sp_ask_more(refining, &trials) && sp_find_others(refining, &trials);
+    bool done = ask_others(refining, &trials, true) && sp_ask_more(refining, &trials) &&
+                sp_find_others_and_runners_up(refining, &trials);
     if (done)
         choose_others(&trials);
     done = done && try_fewest(refining, &trials) && sp_try_turned_up(refining, &trials) &&

@@ -1,11 +1,12 @@
 #include "refine/trials.h"
 
 #include "mesh/grow.h"
-#include "search/partial_enumeration.h"
 
 #include <stdlib.h>
 
 #define ANNEALINGS 4 /* of a layout */
+/* Of so many trials SP_STARTS are refined by continuation: compass finds as much where there is little to forget. */
+#define TURNS 4
 
 static void trial_free(sp_trial *trial)
 {
@@ -38,6 +39,7 @@ bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *par
         return sp_fail_memory(refining->error);
     sp_trial *trial = &trials->items[trials->count];
     *trial = (sp_trial){.kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->outlay_most)};
+    trial->turn = trial->seed % TURNS < SP_STARTS ? trial->seed % TURNS : SP_STARTS;
     if (!sp_partial_copy(refining->search, partial, &trial->partial, refining->error))
         return false;
     trials->count++;
@@ -52,10 +54,23 @@ bool sp_try_annealed(sp_refining *refining, sp_trials *trials, const sp_partial 
     return done;
 }
 
-/* Whether the final patches may see the layout on the front: none of no more water covers clearly more on the search's.
- */
+/* Whether it covers more than any other of as many nozzles, fewer than the best has. */
+static bool is_best_of_its_number(const sp_front *front, const sp_partial *partial)
+{
+    bool best = partial->count < front->best.count;
+    for (size_t i = 0; best && i < front->by_number.count; i++) {
+        const sp_partial *other = &front->by_number.entries[i].partial;
+        best = other->count != partial->count || other->covered < partial->covered;
+    }
+    return best;
+}
+
+/* Whether the final patches may see the layout on the front: none of no more water covers clearly more on the search's,
+ * or none of no more nozzles. */
 static bool may_count(const sp_front *front, const sp_partial *partial)
 {
+    if (is_best_of_its_number(front, partial))
+        return true;
     for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= partial->outlay; i++)
         if (front->by_water.entries[i].partial.covered > partial->covered * (1 + SP_MISJUDGED))
             return false;
@@ -69,31 +84,6 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
     while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.outlay <= outlay * (1 + SP_ROUNDING))
         i++;
     return sp_try_also(refining, trials, &front->by_water.entries[i].partial, outlay, SP_TRIAL_OTHER);
-}
-
-bool sp_find_others(sp_refining *refining, sp_trials *trials)
-{
-    const sp_tuned *tuned = &refining->local_search.tuned;
-    size_t count = trials->count, nozzle_count;
-    double *budgets = malloc((count + 1) * sizeof *budgets);
-    sp_selection *selections = calloc(count + 1, sizeof *selections);
-    const sp_placed **nozzles = sp_front_nozzles(refining->front, &nozzle_count);
-    sp_coverage_matrix matrix = {0};
-    bool done = (budgets && selections && nozzles) || sp_fail_memory(refining->error);
-    for (size_t i = 0; done && i < count; i++)
-        budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
-    done = done &&
-           sp_coverage_matrix_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &matrix, refining->error) &&
-           sp_enumerate_partially(&matrix, budgets, count, refining->deadline, selections, refining->error);
-    for (size_t i = 0; done && i < count; i++)
-        done = sp_selection_partial(&selections[i], &tuned->search, nozzles, &trials->items[i].other, refining->error);
-    for (size_t i = 0; selections && i < count; i++)
-        sp_selection_free(&selections[i]);
-    free(budgets);
-    free(selections);
-    free(nozzles);
-    sp_coverage_matrix_free(&matrix);
-    return done;
 }
 
 sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better)

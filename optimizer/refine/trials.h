@@ -29,9 +29,6 @@ bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_partial *par
 bool sp_try_annealed(sp_refining *refining, sp_trials *trials, const sp_partial *partial, double budget);
 /* A trial of another layout for so much water, to be better than what the front has for no more. */
 bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
-/* Finds the trials' other layouts: of the pool at angles and flows that refinement may set, and of nozzles that the
- * front's layouts have already, put together anew. */
-bool sp_find_others(sp_refining *refining, sp_trials *trials);
 /* Searches locally from the trials and lets the front have them. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials);
 /* What the trials' layouts are measured as, all at once (see sp_front_measure_ahead); `better`: of those that got

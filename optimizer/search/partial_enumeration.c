@@ -307,19 +307,25 @@ bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budg
     return done;
 }
 
-bool sp_selection_partial(const sp_selection *selection, const sp_search *search, const sp_placed *const *others,
-                          sp_partial *partial, sp_error *error)
+bool sp_rows_partial(const sp_coverage_matrix *matrix, const uint32_t *rows, size_t count, const sp_search *search,
+                     const sp_placed *const *others, sp_partial *partial, sp_error *error)
 {
-    const sp_pool *pool = selection->matrix->pool;
+    const sp_pool *pool = matrix->pool;
     if (!sp_partial_create(search, partial, error))
         return false;
     bool done = true;
-    for (size_t i = 0; done && i < selection->count; i++) {
-        size_t row = selection->row[i];
+    for (size_t i = 0; done && i < count; i++) {
+        size_t row = rows[i];
         done = row < pool->count ? sp_partial_add_pose(search, partial, pool->items[row], error)
                                  : sp_partial_add_copy(search, partial, others[row - pool->count], error);
     }
     if (!done)
         sp_partial_free(partial);
     return done;
+}
+
+bool sp_selection_partial(const sp_selection *selection, const sp_search *search, const sp_placed *const *others,
+                          sp_partial *partial, sp_error *error)
+{
+    return sp_rows_partial(selection->matrix, selection->row, selection->count, search, others, partial, error);
 }

@@ -11,8 +11,11 @@
  * freed by the caller. What is found does not depend on the number of threads. */
 bool sp_enumerate_partially(const sp_coverage_matrix *matrix, const double *budgets, size_t count,
                             sp_deadline *deadline, sp_selection *selections, sp_error *error);
-/* The selection as a partial layout of `search`. `others`: the nozzles that the matrix's rows behind the pool's stand
- * for, as they are in that search, where the matrix may tell of them what only jets find; NULL where there are none. */
+/* Rows as a partial layout of `search`. `others`: the nozzles that the matrix's rows behind the pool's stand for, as
+ * they are in that search, where the matrix may tell of them what only jets find; NULL where there are none. */
+bool sp_rows_partial(const sp_coverage_matrix *matrix, const uint32_t *rows, size_t count, const sp_search *search,
+                     const sp_placed *const *others, sp_partial *partial, sp_error *error);
+/* The same of a selection's. */
 bool sp_selection_partial(const sp_selection *selection, const sp_search *search, const sp_placed *const *others,
                           sp_partial *partial, sp_error *error);
 

@@ -145,6 +145,8 @@ static bool is_clear(const sp_selection *selection, size_t row)
 static bool has_place(const sp_selection *selection, size_t row)
 {
     const sp_coverage_matrix *matrix = selection->matrix;
+    if (selection->barred && selection->barred[row])
+        return false;
     uint32_t mount = sp_coverage_matrix_mount(matrix, row);
     size_t capacity = sp_mount_left(matrix->search, mount), there = 0;
     for (size_t i = 0; capacity <= selection->count && i < selection->count; i++)

@@ -18,6 +18,7 @@ typedef struct {
     sp_kept_gains known[2];        /* without and with the search's credit, on what was last asked about */
     double *score;                 /* [matrix->row_count], scratch */
     sp_selection_memo *memo;       /* of best rows found already, borrowed; NULL: each is found anew */
+    const bool *barred;            /* [matrix->row_count], rows that may not come in, borrowed; NULL: none. No memo then */
 } sp_selection;
 
 bool sp_selection_create(const sp_coverage_matrix *matrix, sp_selection *selection, sp_error *error);

@@ -285,6 +285,9 @@ static void print_certificate(const sp_proposal *proposal)
            proposal->costly ? "For the proposal's price" : "With the proposal's water",
            ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10,
            ceil(1e3 * certificate->gap - 1e-9) / 10);
+    if (sp_allows_more_water(proposal))
+        printf("More water is allowed than the proposal takes; what layouts that take more could cover is not bounded "
+               "here.\n");
     if (certificate->every_aim.computed)
         print_every_aim(proposal);
 }

@@ -67,6 +67,9 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool thrown_ba
     add_percent(text, found->gap, true);
     sp_text_add(text, " of what is possible is left.%s</p>\n",
                 found->every_layout ? " Every layout of the candidates was looked at that their bodies allow." : "");
+    if (sp_allows_more_water(proposal))
+        sp_text_add(text, "<p>More water is allowed than the proposal takes. What layouts that take "
+                          "more could cover is not bounded here.</p>\n");
     add_every_aim(proposal, text, only);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ROUND_OFF 1e-9 /* of the water, by which a sum of flows may lie above what is allowed */
+#define MORE 1e-3      /* of the water: less is left over where nozzles' flows do not add up to what is allowed */
 
 bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double flow)
 {
@@ -16,6 +17,13 @@ bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double flow)
 bool sp_exceeds_limits(const sp_proposal *proposal)
 {
     return !sp_limits_allow(proposal, proposal->layout->count, proposal->coverage->flow);
+}
+
+bool sp_allows_more_water(const sp_proposal *proposal)
+{
+    const sp_certificate *found = &proposal->certificate;
+    return proposal->objective == SP_OBJECTIVE_MAX_COVERAGE && !found->every_layout &&
+           found->area_bound < found->whole && sp_limits_allow(proposal, 0, proposal->coverage->flow * (1 + MORE));
 }
 
 void sp_limits_clause(const sp_proposal *proposal, char text[SP_LIMITS_TEXT])

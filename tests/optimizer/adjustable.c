@@ -1,9 +1,7 @@
 /* Nozzles whose angle and flow can be set: no worse than what is easily set by hand. */
-#include "prepared.h"
+#include "quest.h"
 
 #include "refine/more_water.h"
-#include "refine/refine.h"
-#include "search/find.h"
 
 #define MOUNTS 4
 
@@ -71,35 +69,6 @@ static sp_nozzle by_hand(const job *j, sp_vec3 position, sp_vec3 axis, double an
                        .flow = litres * LITRES_PER_MINUTE};
 }
 
-/* A search for the most coverage, no proof. */
-typedef struct {
-    prepared ready;
-    sp_pool pool;
-    sp_front front;
-    sp_partial first; /* what greedy finds */
-} quest;
-
-static void quest_begin(quest *q, const job *j)
-{
-    sp_error error = {0};
-    *q = (quest){0};
-    prepare(&q->ready, j->room.evaluator, &j->options);
-    q->front = (sp_front){.fine = j->room.evaluator,
-                          .deadline = &q->ready.deadline,
-                          .objective = SP_OBJECTIVE_MAX_COVERAGE,
-                          .target = q->ready.search.all};
-    assert_true(sp_find_first(&q->ready.search, 1, &q->ready.deadline, &q->front, &q->pool, &q->first, &error));
-}
-
-static void quest_end(quest *q, job *j)
-{
-    sp_partial_free(&q->first);
-    sp_front_free(&q->front);
-    sp_pool_free(&q->pool);
-    prepared_free(&q->ready);
-    room_close(&j->room);
-}
-
 /* m² that is found to be covered, and in *simple what these nozzles do. */
 static double job_search(job *j, const sp_nozzle *nozzles, size_t count, bool hurried, double *simple)
 {
@@ -108,17 +77,10 @@ static double job_search(job *j, const sp_nozzle *nozzles, size_t count, bool hu
     sp_layout *layout = sp_layout_create(nozzles, count, &error);
     assert_non_null(layout);
     *simple = room_area_of(&j->room, layout);
-    quest_begin(&q, j);
-    const sp_search *search = &q.ready.search;
-    sp_deadline *deadline = &q.ready.deadline;
-    if (hurried)
-        assert_true(sp_refine_first(search, &q.pool, deadline, &q.front, &error));
-    else
-        assert_true(sp_find_more(search, deadline, &q.front, &q.pool, &q.first, &error) &&
-                    sp_refine_best(search, &q.pool, deadline, &q.front, &error));
-    double area = q.front.measured.area;
-    assert_true(q.front.measured.flow <= j->options.max_water * (1 + 1e-9));
-    quest_end(&q, j);
+    quest_begin(&q, j->room.evaluator, &j->options);
+    double area = hurried ? quest_hurry(&q) : quest_finish(&q);
+    quest_end(&q);
+    room_close(&j->room);
     return area;
 }
 
@@ -296,7 +258,7 @@ static void the_best_is_annealed(void **state)
     job_port(&j, 0.3, 0.5, 0.1, 0.1, 60);
     job_port(&j, 0.7, 0.5, 0.1, 0.1, 60);
     job_port(&j, 0.5, 0.3, 0.1, 0.1, 60);
-    quest_begin(&q, &j);
+    quest_begin(&q, j.room.evaluator, &j.options);
     sp_refining refining = {
         .search = &q.ready.search, .pool = &q.pool, .deadline = &q.ready.deadline, .front = &q.front, .error = &error};
     assert_true(sp_local_search_create(&q.ready.search, &q.pool, j.room.evaluator, &q.ready.deadline,
@@ -305,7 +267,41 @@ static void the_best_is_annealed(void **state)
     assert_true(sp_cover_more(&refining));
     assert_true(q.front.measured.area > 1.01 * before);
     sp_local_search_free(&refining.local_search);
-    quest_end(&q, &j);
+    quest_end(&q);
+    room_close(&j.room);
+}
+
+/* A layout is refined once for as much water as it can take, and again for more. */
+static void more_water_is_another_trial(void **state)
+{
+    (void)state;
+    job j;
+    quest q;
+    sp_error error = {0};
+    sp_trials trials = {0};
+    job_open(&j, 5, 0.1);
+    job_set(&j, 90, 90, 2, 20);
+    job_port(&j, 0.3, 0.5, 0.1, 0.1, 60);
+    j.options.max_nozzles = 1;
+    quest_begin(&q, j.room.evaluator, &j.options);
+    sp_refining refining = {
+        .search = &q.ready.search, .pool = &q.pool, .deadline = &q.ready.deadline, .front = &q.front, .error = &error};
+    assert_true(sp_local_search_create(&q.ready.search, &q.pool, j.room.evaluator, &q.ready.deadline,
+                                       &refining.local_search, &error));
+    static const double budgets[] = {10, 15, 15, 25, 30};
+    for (size_t i = 0; i < 5; i++) {
+        assert_true(sp_try_also(&refining, &trials, &q.front.best, budgets[i] * LITRES_PER_MINUTE, SP_TRIAL_BY_TURNS));
+        trials.items[i].turn = SP_STARTS;
+    }
+    assert_true(sp_local_search_run(&refining.local_search, trials.items, trials.count, &error));
+    assert_true(trials.items[1].better && trials.items[1].partial.flow > 11 * LITRES_PER_MINUTE);
+    assert_true(trials.items[3].better && trials.items[3].partial.flow > 16 * LITRES_PER_MINUTE);
+    assert_true(trials.items[2].repeats && trials.items[4].repeats);
+    assert_false(trials.items[0].repeats || trials.items[1].repeats || trials.items[3].repeats);
+    sp_trials_free(&trials);
+    sp_local_search_free(&refining.local_search);
+    quest_end(&q);
+    room_close(&j.room);
 }
 
 int main(void)
@@ -314,6 +310,7 @@ int main(void)
         cmocka_unit_test(two_wide_cones_facing_each_other), cmocka_unit_test(one_cone_turned_up),
         cmocka_unit_test(as_many_as_are_allowed),           cmocka_unit_test(as_many_as_are_allowed_in_a_hurry),
         cmocka_unit_test(settings_between_the_candidates),  cmocka_unit_test(the_best_is_annealed),
+        cmocka_unit_test(more_water_is_another_trial),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,7 +88,8 @@ static void nozzles_moved_along_a_line_stay_clear(void **state)
     room_close(&j.room);
 }
 
-/* Along a surface both ways at once come to more than either. */
+/* Along a surface both ways at once come to more than either; to where the nearest mounting point may be, a whole
+ * spacing. */
 static void nozzles_moved_along_a_lid_stay_clear(void **state)
 {
     (void)state;
@@ -98,7 +99,7 @@ static void nozzles_moved_along_a_lid_stay_clear(void **state)
         sp_mount mount = {.kind = SP_MOUNT_SURFACE, .part = 1, .spacing = 0.4, .standoff = STANDOFF};
         open_job(&j, mount, clearances[i]);
         j.options.refine.position = limits[i];
-        sp_proposal *proposal = place_moved(&j, limits[i] < 0 ? 0.2 : limits[i]);
+        sp_proposal *proposal = place_moved(&j, limits[i] < 0 ? 0.4 : limits[i]);
         for (size_t n = 0; n < proposal->layout->count; n++)
             assert_true(fabs(proposal->layout->nozzles[n].position.z - (1.2 - STANDOFF)) < ROUNDING);
         sp_proposal_destroy(proposal);

@@ -3,6 +3,7 @@
 
 #include "search/front_gaps.h"
 #include "search/partial_enumeration.h"
+#include "search/runners_up.h"
 #include "search/tuned.h"
 
 #define PRESSURE 2e5
@@ -250,6 +251,74 @@ static void regrouping_never_loses(void **state)
     }
 }
 
+static bool is_there(const sp_runner_up *found, uint32_t row)
+{
+    bool there = false;
+    for (size_t i = 0; i < found->count && !there; i++)
+        there = found->row[i] == row;
+    return there;
+}
+
+/* One that fits, covers nearly as much as the best, and is another than it and those before it. */
+static void check_runner_up(const sp_coverage_matrix *matrix, const sp_selection *best, double budget,
+                            const sp_runner_up *found, size_t i)
+{
+    sp_error error = {0};
+    sp_selection own;
+    const sp_runner_up *runner_up = &found[i];
+    assert_true(runner_up->count <= SP_FEW && fits_port(matrix, runner_up->row, runner_up->count));
+    assert_true(sp_selection_create(matrix, &own, &error));
+    sp_selection_set(&own, runner_up->row, runner_up->count);
+    assert_true(own.outlay <= budget * (1 + SP_ROUNDING));
+    assert_true(own.covered >= (runner_up->count == 1 ? 0.94 : 0.97) * best->covered);
+    sp_selection_free(&own);
+    size_t shared = 0;
+    for (size_t k = 0; k < best->count; k++)
+        shared += is_there(runner_up, best->row[k]);
+    assert_true(runner_up->count != best->count || shared < best->count);
+    for (size_t k = 0; k < i; k++) {
+        shared = 0;
+        for (size_t n = 0; n < runner_up->count; n++)
+            shared += is_there(&found[k], runner_up->row[n]);
+        assert_true(runner_up->count != found[k].count || shared < runner_up->count);
+    }
+}
+
+/* For one nozzle of 16 L/min, in whose place two of 7 are better, for these, and one of each; the same by one thread
+ * and four. */
+static void runners_up_are_others_nearly_as_good(void **state)
+{
+    (void)state;
+    const double budgets[] = {LITRES(16.001), LITRES(14.001), LITRES(23.001)};
+    enum { COUNT = sizeof budgets / sizeof *budgets };
+    job j;
+    sp_error error = {0};
+    sp_coverage_matrix matrix;
+    sp_selection best[COUNT];
+    sp_runner_up found[2][COUNT * SP_RUNNERS_UP];
+    job_open(&j, false);
+    assert_true(sp_coverage_matrix_create(&j.ready.search, &j.pool, NULL, 0, &matrix, &error));
+    assert_true(sp_enumerate_partially(&matrix, budgets, COUNT, &j.ready.deadline, best, &error));
+    for (int many = 0; many < 2; many++) {
+        j.options.run.threads = many ? 4 : 1;
+        assert_true(sp_find_runners_up(best, budgets, COUNT, &j.ready.deadline, found[many], &error));
+    }
+    assert_memory_equal(found[0], found[1], sizeof found[0]);
+    for (size_t b = 0; b < COUNT; b++) {
+        const sp_runner_up *own = &found[0][b * SP_RUNNERS_UP];
+        assert_true(own[0].count > 0);
+        for (size_t i = 0; i < SP_RUNNERS_UP && own[i].count; i++)
+            check_runner_up(&matrix, &best[b], budgets[b], own, i);
+        sp_selection_free(&best[b]);
+    }
+    bool one = false;
+    for (size_t i = 0; i < SP_RUNNERS_UP; i++)
+        one |= found[0][i].count == 1;
+    assert_true(one);
+    sp_coverage_matrix_free(&matrix);
+    job_close(&j);
+}
+
 /* The most that layouts of the front cover with so much water. */
 static double front_area(const sp_front *front, double budget)
 {
@@ -416,10 +485,15 @@ static void memos_tell_questions_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(enumeration_comes_near_the_best), cmocka_unit_test(two_merge_into_the_best_one),
-        cmocka_unit_test(regrouping_never_loses),          cmocka_unit_test(tuned_poses_say_their_flow),
-        cmocka_unit_test(memos_tell_questions_apart),      cmocka_unit_test(a_front_is_filled),
-        cmocka_unit_test(gains_are_what_rows_add),         cmocka_unit_test(close_amounts_are_thinned),
+        cmocka_unit_test(enumeration_comes_near_the_best),
+        cmocka_unit_test(two_merge_into_the_best_one),
+        cmocka_unit_test(regrouping_never_loses),
+        cmocka_unit_test(tuned_poses_say_their_flow),
+        cmocka_unit_test(memos_tell_questions_apart),
+        cmocka_unit_test(a_front_is_filled),
+        cmocka_unit_test(gains_are_what_rows_add),
+        cmocka_unit_test(close_amounts_are_thinned),
+        cmocka_unit_test(runners_up_are_others_nearly_as_good),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -157,7 +157,17 @@ static void the_page_says_what_is_proved(void **state)
     assert_non_null(strstr(html, "no layout reaches more than 90.1&nbsp;%: at most 10.7&nbsp;% of what"));
     assert_bounds_end_at_their_points(html);
     assert_null(strstr(html, "is not known"));
+    assert_null(strstr(html, "More water is allowed"));
     free(html);
+    /* of as much coverage as can be that is not the bound asked for */
+    p.proposal.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    for (int more = 0; more < 2; more++) {
+        p.proposal.max_water = (more ? 1.01 : 1) * p.proposal.coverage->flow;
+        html = sp_report_html(&p.result, &error);
+        assert_true((strstr(html, "More water is allowed than the proposal takes.") != NULL) == more);
+        free(html);
+    }
+    p.proposal.objective = SP_OBJECTIVE_MIN_WATER;
     /* not those that the search says it looked at */
     p.proposal.candidates = 200000;
     html = sp_report_html(&p.result, &error);
