@@ -247,6 +247,14 @@ static void add_fault(const sp_page *page, sp_text *text, bool all)
                 all ? "" : "else ", sp_page_cleaned(page));
 }
 
+/* Of alternatives each counts what its own layout covers, not what the others' do. */
+static const char *covering_layouts(const sp_page *page)
+{
+    if (!page->alternatives)
+        return "a layout of this report";
+    return page->manual == SP_UNKNOWN ? "its layout" : "its layout or the engineer&#39;s own";
+}
+
 void sp_page_attainable(const sp_page *page, sp_text *text)
 {
     const sp_figures *figures = known(page);
@@ -267,7 +275,7 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
                 sp_result_counts_thrown_back(page->result)
                     ? "gets liquid to them, thrown back by walls or not, as much as the criterion asks or less"
                     : "reaches them as the criterion asks",
-                page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
+                covering_layouts(page));
     double limited = add_limited(page, text, figures);
     if (missing - limited > NEGLIGIBLE * figures->clean_area && !sp_page_looked(page, page->main)[0])
         add_fault(page, text, !limited);

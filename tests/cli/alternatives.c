@@ -205,6 +205,7 @@ static void the_page_has_every_alternative(void **state)
     /* three views of four designs */
     assert_int_equal(count_of(page, "<figure>"), 12);
     assert_int_equal(count_of(page, "for a test on the vessel to show"), 1);
+    assert_non_null(strstr(page, "; or its layout or the engineer&#39;s own covers them"));
     free(page);
 }
 
@@ -373,6 +374,7 @@ static void nested_ones_are_never_worse(void **state)
     assert_non_null(strstr(text_of(found, "proposed_for"), "covers most, of what the time allowed to find"));
     char *page = read_file("nested/report.html", NULL);
     assert_non_null(strstr(page, "covers most, of what the time allowed to find. It "));
+    assert_non_null(strstr(page, "; or its layout covers them"));
     assert_non_null(
         strstr(page, "what is found after that is not handed back to them, so that they may do better than is told "
                      "of them. What was found need not be the best.</p>"));
