@@ -231,7 +231,7 @@ SP_API bool sp_limits_allow(const sp_proposal *proposal, size_t nozzles, double 
 SP_API bool sp_exceeds_limits(const sp_proposal *proposal);
 
 /* Whether the proposal was to cover most and takes less water than is allowed: bounds on layouts of as much water then
- * do not tell how near to the best it is, but where every layout was looked at, or they are all there is. */
+ * do not tell how near to the best it is. False where every layout was looked at, or the bound is the whole surface. */
 SP_API bool sp_allows_more_water(const sp_proposal *proposal);
 
 /* Where the scene's own nozzles ("manual"), within the limits, are better than the proposal by its objective, that they

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SINGLES 4 /* runners-up of one nozzle */
-#define OTHERS 3  /* of more, about */
+#define SINGLES 4 /* runners-up of one nozzle; of more there is one without each of them */
 /* Of what the best covers, that one may cover less; a single nozzle is refined in no time, and may come from farther
  * behind. */
 #define LAG 0.03
@@ -43,8 +42,8 @@ static void bar(const sp_coverage_matrix *matrix, uint32_t row, bool *barred)
     kind own = kind_of(matrix, row);
     for (size_t r = 0; r < matrix->row_count; r++) {
         kind other = kind_of(matrix, r);
-        barred[r] |= other.type == own.type && fabs(other.pressure - own.pressure) <= 0 &&
-                     sp_distance(other.place, own.place) <= 0;
+        barred[r] |=
+            other.type == own.type && other.pressure == own.pressure && sp_distance(other.place, own.place) == 0;
     }
 }
 
@@ -105,9 +104,10 @@ static size_t find_without(const sp_selection *best, size_t i, double budget, si
     return count;
 }
 
-/* Adds single nozzles that cover nearly as much as several: by gain per outlay they stand back. */
-static size_t find_singles(const sp_selection *best, double budget, scratch *own, sp_runner_up *found, size_t count)
+/* Single nozzles that cover nearly as much as the best; how many. By gain per outlay they stand back behind several. */
+static size_t find_singles(const sp_selection *best, double budget, scratch *own, sp_runner_up *found)
 {
+    size_t count = 0;
     sp_selection *selection = &own->selection;
     memset(own->barred, 0, best->matrix->row_count * sizeof *own->barred);
     for (size_t k = 0; k < SINGLES; k++) {
@@ -127,9 +127,9 @@ static size_t find_singles(const sp_selection *best, double budget, scratch *own
 
 static void find(const sp_selection *best, double budget, scratch *own, sp_runner_up *found)
 {
-    size_t number = best->count, count = number > 1 ? find_singles(best, budget, own, found, 0) : 0;
+    size_t number = best->count, count = number > 1 ? find_singles(best, budget, own, found) : 0;
     for (size_t i = 0; number <= SP_FEW && i < number; i++)
-        count = find_without(best, i, budget, number == 1 ? SINGLES : OTHERS / number, own, found, count);
+        count = find_without(best, i, budget, number == 1 ? SINGLES : 1, own, found, count);
 }
 
 static bool scratch_create(const sp_coverage_matrix *matrix, int threads, sp_deadline *deadline, scratch **all,
@@ -191,7 +191,7 @@ bool sp_find_singles(const sp_coverage_matrix *matrix, double most, sp_deadline 
     uint32_t row = done ? sp_selection_best(&best, 0, 0, most, &gain) : 0;
     if (gain > 0) {
         sp_selection_add(&best, row);
-        find_singles(&best, most, own, found, 0);
+        find_singles(&best, most, own, found);
     }
     scratch_free(own, 1);
     if (created)

@@ -246,6 +246,18 @@ static void settings_between_the_candidates(void **state)
     room_close(&j.room);
 }
 
+/* In place; borrows both. The caller frees its local search. */
+static void refining_begin(sp_refining *refining, quest *q, sp_error *error)
+{
+    *refining = (sp_refining){.search = &q->ready.search,
+                              .pool = &q->pool,
+                              .deadline = &q->ready.deadline,
+                              .front = &q->front,
+                              .error = error};
+    assert_true(sp_local_search_create(refining->search, refining->pool, q->front.fine, refining->deadline,
+                                       &refining->local_search, error));
+}
+
 /* A layout that greedy found is annealed where all that water can do is asked for. */
 static void the_best_is_annealed(void **state)
 {
@@ -259,10 +271,8 @@ static void the_best_is_annealed(void **state)
     job_port(&j, 0.7, 0.5, 0.1, 0.1, 60);
     job_port(&j, 0.5, 0.3, 0.1, 0.1, 60);
     quest_begin(&q, j.room.evaluator, &j.options);
-    sp_refining refining = {
-        .search = &q.ready.search, .pool = &q.pool, .deadline = &q.ready.deadline, .front = &q.front, .error = &error};
-    assert_true(sp_local_search_create(&q.ready.search, &q.pool, j.room.evaluator, &q.ready.deadline,
-                                       &refining.local_search, &error));
+    sp_refining refining;
+    refining_begin(&refining, &q, &error);
     double before = q.front.measured.area;
     assert_true(sp_cover_more(&refining));
     assert_true(q.front.measured.area > 1.01 * before);
@@ -284,10 +294,8 @@ static void more_water_is_another_trial(void **state)
     job_port(&j, 0.3, 0.5, 0.1, 0.1, 60);
     j.options.max_nozzles = 1;
     quest_begin(&q, j.room.evaluator, &j.options);
-    sp_refining refining = {
-        .search = &q.ready.search, .pool = &q.pool, .deadline = &q.ready.deadline, .front = &q.front, .error = &error};
-    assert_true(sp_local_search_create(&q.ready.search, &q.pool, j.room.evaluator, &q.ready.deadline,
-                                       &refining.local_search, &error));
+    sp_refining refining;
+    refining_begin(&refining, &q, &error);
     static const double budgets[] = {10, 15, 15, 30, 25};
     for (size_t i = 0; i < 5; i++) {
         assert_true(sp_try_also(&refining, &trials, &q.front.best, budgets[i] * LITRES_PER_MINUTE, SP_TRIAL_BY_TURNS));
